@@ -1,0 +1,52 @@
+//! Rilievo: a GPU laboratory for height fields that move.
+//!
+//! Every frame a simulation and stamps make a height field, a Sobel pass derives its normals, a pyramid pass rebuilds its
+//! bounds, and a fragment shader traces it per pixel, with shadows. [`frame::Frame::record`] is the table of contents: whoever
+//! wants to know what happens in a frame reads it first.
+//!
+//! ```text
+//!              scene, clock, camera, strokes              plain data, CPU
+//!                  │
+//!    steps ×  ┌────▼────┐ state  ┌─────────┐ height ┌─────────┐ normal
+//!             │  wave   ├───────►│ compose ├───┬───►│ normals ├────────┐
+//!             └─────────┘        └────▲────┘   │    └─────────┘        ▼
+//!             ┌─────────┐ relief      │        │    ┌─────────┐ bounds ┌─────────┐ radiance ┌─────────┐
+//!             │  stamp  ├─────────────┘        └───►│ pyramid ├───────►│ surface ├─────────►│ present ├─► window, files, numbers
+//!             └─────────┘                           └─────────┘        └─────────┘          └─────────┘
+//! ```
+//!
+//! The same frame runs in three ways, which differ in who owns the clock and where the picture goes, and in nothing else:
+//! [`modes::live`] (a window), [`modes::capture`] (files) and [`modes::stress`] (numbers).
+//!
+//! # Conventions
+//!
+//! - **Height.** `h` is an f32 and white is high: 1 is the reference surface (the polygon), 0 the deepest valley. Displacement
+//!   goes inward. Papers that speak of *displacement* or *depth* mean `1 − h`.
+//! - **Range.** Composition clamps the field to \[0, 1\], turns NaN into 0 and ±Inf into the bound that it exceeds, and counts the
+//!   texels that it touched. So a ray that enters the slab always ends in it. The layers beneath (simulation state, stamps)
+//!   keep their unclamped values.
+//! - **The surface** is the bilinear interpolant of texel centres, addressed with wrap or clamp. Lattice coordinates are
+//!   `uv · size − 0.5`. Cell `(i, j)` spans the four centres `(i..i+1, j..j+1)`. With wrap there are as many cells as texels. With
+//!   clamp there is one more a row: the half cell −1 along the border, which reads the bounds of cell 0. Every technique
+//!   approximates this one surface, and exactness is measured against it.
+//! - **A flat base polygon clips nothing sideways**: a ray that leaves the plane before it hits goes on over the wrapped or
+//!   clamped field.
+//! - **Field space**: `u` right, `v` down the image (row 0 on top), height out of the surface: left-handed.
+//! - **World**: right-handed, metres, +y up. The plane lies in y = 0, centred on the origin, `u` along +x, `v` along +z; a point
+//!   of the surface is `((u − ½)·size.x, (h − 1)·depth, (v − ½)·size.y)`, with `depth` in metres.
+//! - **Rays** come from the pixel centre and the matrices, not from interpolated varyings ([`surface::ray_map`]).
+//! - **Time**: seconds. A simulation steps by its own fixed `dt`; the clock says how many steps a frame owes.
+//! - **Names carry spaces and units**: `world_from_view`, `depth_metres`, `dt_seconds`.
+//! - **Determinism**: the same scene, seed, size and adapter give the same bytes. Random numbers come from
+//!   [Xoshiro256++](rand::rngs::Xoshiro256PlusPlus), whose sequence is guaranteed. No wall-clock time reaches a simulation.
+//!
+//! # Sources
+//!
+//! - **\[POM\]** N. Tatarchuk, *Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows*, I3D 2006; **\[POM slides\]**,
+//!   its talk.
+//! - **\[PDM\]** K. Oh, H. Ki, C.-H. Lee, *Pyramidal Displacement Mapping*, VRST 2006, revised 2007.
+//! - **\[Zink\]** J. Zink, *A Closer Look at Parallax Occlusion Mapping*, GameDev.net 2006, revised 2008.
+//! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
+
+pub mod scene;
+pub mod surface;

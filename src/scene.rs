@@ -1,0 +1,376 @@
+//! A scene: all that determines the picture, as plain data.
+//!
+//! The same value serves panel, command line, files and tests. Files are TOML; a field that is absent has its default, a field
+//! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use crate::surface::{Albedo, Shadow, Technique};
+
+/// The version of the scene format that this program reads and writes.
+pub const VERSION: u32 = 1;
+
+/// All that determines the picture. See the module's documentation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// The format's version, [`VERSION`]. The one key that has no default.
+    pub version: u32,
+    /// Its name, as `rilievo scenes` lists it.
+    #[serde(default)]
+    pub name: String,
+    /// One sentence: what it shows and what to try.
+    #[serde(default)]
+    pub description: String,
+    /// Seed of everything random in it.
+    #[serde(default)]
+    pub seed: u64,
+    /// The height field's size and what lies beyond its border.
+    #[serde(default)]
+    pub field: FieldSettings,
+    /// The plane that carries the field.
+    #[serde(default)]
+    pub plane: Plane,
+    /// The height that the field starts from.
+    #[serde(default)]
+    pub base: Base,
+    /// Waves over the base, if any.
+    #[serde(default)]
+    pub wave: Option<Wave>,
+    /// Seeded shots at the surface, if any.
+    #[serde(default)]
+    pub shots: Option<Shots>,
+    /// How the surface is traced.
+    #[serde(default)]
+    pub trace: Trace,
+    /// The light.
+    #[serde(default)]
+    pub light: Light,
+    /// What the surface is made of.
+    #[serde(default)]
+    pub material: Material,
+    /// Where it is seen from.
+    #[serde(default)]
+    pub camera: Camera,
+}
+
+/// Size and addressing of the height field.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FieldSettings {
+    /// Width and height, texels.
+    pub size: [u32; 2],
+    /// What lies beyond the border.
+    pub addressing: Addressing,
+}
+
+/// What lies beyond the border of the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Addressing {
+    /// The field again.
+    Wrap,
+    /// Its border texels, for ever.
+    Clamp,
+}
+
+/// The plane that carries the field, in the world's y = 0, centred on the origin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Plane {
+    /// Extent along x, metres. The extent along z follows from the field's aspect: texels are square.
+    pub width_metres: f32,
+    /// Depth of h = 0 below the plane, metres.
+    pub depth_metres: f32,
+}
+
+/// The height that the field starts from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
+pub enum Base {
+    /// One height everywhere: still water, a blank wall.
+    Flat {
+        /// The height, 0 to 1.
+        height: f32,
+    },
+    /// A wall of bricks in running bond, the same that the `brick` albedo colours.
+    Bricks,
+    /// Hills with terraces, steps and spikes: a field that is hard to trace.
+    Terrain,
+    /// An image's heights.
+    Image {
+        /// A PNG or EXR file.
+        path: PathBuf,
+        /// The heights in the file that become 0 and 1; absent: they stand as they are.
+        #[serde(default)]
+        range: Option<[f32; 2]>,
+    },
+}
+
+/// A wave equation over the base.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Wave {
+    /// Speed of the waves, metres a second.
+    pub speed_metres_per_second: f32,
+    /// Courant number C = c·dt/dx, which sets the time step. C² must be at most 0.49.
+    pub courant: f32,
+    /// Damping rate, 1/s: an undisturbed wave falls by e^(−rate/2) a second.
+    pub damping_per_second: f32,
+    /// What happens at the border of the field.
+    pub boundary: Boundary,
+    /// Width of the absorbing layer where the boundary is `absorbing`, texels.
+    pub sponge_texels: u32,
+    /// Height that a wave of amplitude 1 adds.
+    pub amplitude: f32,
+    /// Rain upon it, if any.
+    pub rain: Option<Rain>,
+    /// Posts that reflect it.
+    pub obstacles: Vec<Obstacle>,
+}
+
+/// What a wave meets at the border of the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    /// The opposite border.
+    Periodic,
+    /// A wall that keeps the sign of a reflection (Neumann).
+    Reflecting,
+    /// A held border, which inverts a reflection (Dirichlet).
+    Fixed,
+    /// A sponge, which swallows it.
+    Absorbing,
+}
+
+/// Seeded drops upon the water.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Rain {
+    /// Mean number of drops a second.
+    pub drops_per_second: f32,
+    /// Radius of a drop's impulse, metres.
+    pub radius_metres: f32,
+    /// Depth of the dent that a drop makes, in units of the wave's amplitude.
+    pub strength: f32,
+}
+
+/// A post that stands in the water and reflects waves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    /// Its centre, uv.
+    pub centre: [f32; 2],
+    /// Half its extent along u and v, metres.
+    pub half_extent_metres: [f32; 2],
+    /// Radius of its corners, metres: as large as the half extent makes it round.
+    #[serde(default)]
+    pub corner_metres: f32,
+    /// Height of its top, 0 to 1.
+    #[serde(default = "one")]
+    pub top: f32,
+}
+
+/// Seeded shots, each a crater and its scorch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Shots {
+    /// Shots a second.
+    pub per_second: f32,
+    /// Smallest and largest radius of a crater's rim, metres.
+    pub radius_metres: [f32; 2],
+    /// Depth of a crater of the largest radius, metres.
+    pub depth_metres: f32,
+    /// How black the soot around it is, 0 to 1.
+    pub scorch: f32,
+}
+
+/// How the surface is traced.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Trace {
+    /// The technique that finds the surface.
+    pub technique: Technique,
+    /// The shadow upon it.
+    pub shadow: Shadow,
+    /// Samples of `pom` seen head-on ([POM] eq. 1, n_min).
+    pub pom_samples_min: u32,
+    /// Samples of `pom` seen edge-on ([POM] eq. 1, n_max).
+    pub pom_samples_max: u32,
+    /// Samples of `pom-soft` along the light ray.
+    pub shadow_samples: u32,
+    /// Strength of `pom-soft`: how fast a blocker darkens.
+    pub shadow_strength: f32,
+    /// Nodes that `exact` and `hard` may visit before they give up and say so.
+    pub step_cap: u32,
+    /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
+    pub supersampling: u32,
+}
+
+/// A directional light and its surroundings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Light {
+    /// Direction toward the light: degrees from +x toward +z.
+    pub azimuth_degrees: f32,
+    /// Direction toward the light: degrees above the plane.
+    pub elevation_degrees: f32,
+    /// Its colour, linear.
+    pub colour: [f32; 3],
+    /// Its irradiance over π: a white surface that faces it has this radiance.
+    pub intensity: f32,
+    /// Radiance of the sky overhead, linear.
+    pub sky: [f32; 3],
+    /// Radiance from below the horizon, linear.
+    pub ground: [f32; 3],
+    /// Degrees a second that the light travels round the vertical.
+    pub turn_degrees_per_second: f32,
+}
+
+/// What the surface is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Material {
+    /// Its colours.
+    pub albedo: Albedo,
+    /// Tint of the albedo, linear.
+    pub tint: [f32; 3],
+    /// Strength of the highlight, 0 to 1.
+    pub specular: f32,
+    /// Exponent of the highlight (Blinn–Phong).
+    pub shininess: f32,
+}
+
+/// Where the surface is seen from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Camera {
+    /// The eye, metres.
+    pub eye: [f64; 3],
+    /// The point in the middle of the picture, metres.
+    pub target: [f64; 3],
+    /// Vertical field of view, degrees.
+    pub vertical_fov_degrees: f64,
+    /// Nearest visible distance, metres.
+    pub near_metres: f64,
+    /// Degrees a second that the eye travels round the vertical through the target.
+    pub orbit_degrees_per_second: f64,
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            version: VERSION,
+            name: String::new(),
+            description: String::new(),
+            seed: 0,
+            field: FieldSettings::default(),
+            plane: Plane::default(),
+            base: Base::default(),
+            wave: None,
+            shots: None,
+            trace: Trace::default(),
+            light: Light::default(),
+            material: Material::default(),
+            camera: Camera::default(),
+        }
+    }
+}
+
+impl Default for FieldSettings {
+    fn default() -> Self {
+        Self { size: [512, 512], addressing: Addressing::Clamp }
+    }
+}
+
+impl Default for Plane {
+    fn default() -> Self {
+        Self { width_metres: 1.0, depth_metres: 0.1 }
+    }
+}
+
+impl Default for Base {
+    fn default() -> Self {
+        Self::Flat { height: 1.0 }
+    }
+}
+
+impl Default for Wave {
+    fn default() -> Self {
+        Self {
+            speed_metres_per_second: 0.35,
+            courant: 0.6,
+            damping_per_second: 0.8,
+            boundary: Boundary::Reflecting,
+            sponge_texels: 48,
+            amplitude: 0.2,
+            rain: None,
+            obstacles: Vec::new(),
+        }
+    }
+}
+
+impl Default for Rain {
+    fn default() -> Self {
+        Self { drops_per_second: 24.0, radius_metres: 0.02, strength: 1.0 }
+    }
+}
+
+impl Default for Shots {
+    fn default() -> Self {
+        Self { per_second: 10.0, radius_metres: [0.012, 0.035], depth_metres: 0.03, scorch: 0.8 }
+    }
+}
+
+impl Default for Trace {
+    fn default() -> Self {
+        Self {
+            technique: Technique::Exact,
+            shadow: Shadow::Hard,
+            pom_samples_min: 8,
+            pom_samples_max: 50,
+            shadow_samples: 16,
+            shadow_strength: 4.0,
+            step_cap: 4096,
+            supersampling: 1,
+        }
+    }
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self {
+            azimuth_degrees: 215.0,
+            elevation_degrees: 40.0,
+            colour: [1.0, 0.95, 0.88],
+            intensity: 2.2,
+            sky: [0.42, 0.52, 0.68],
+            ground: [0.16, 0.13, 0.11],
+            turn_degrees_per_second: 0.0,
+        }
+    }
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self { albedo: Albedo::Plain, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
+    }
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            eye: [0.0, 1.15, 1.05],
+            target: [0.0, -0.04, 0.04],
+            vertical_fov_degrees: 45.0,
+            near_metres: 0.01,
+            orbit_degrees_per_second: 0.0,
+        }
+    }
+}

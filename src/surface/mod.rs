@@ -1,0 +1,5 @@
+//! How the field is seen: techniques, shadows, shading.
+
+pub mod choice;
+
+pub use choice::{Albedo, Shadow, Technique};
