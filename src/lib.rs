@@ -49,5 +49,6 @@
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
 pub mod camera;
+pub mod gpu;
 pub mod scene;
 pub mod surface;
