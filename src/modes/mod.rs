@@ -1,0 +1,1 @@
+//! How the frame is run: live, to files, to numbers.
