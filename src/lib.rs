@@ -49,10 +49,13 @@
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
 pub mod camera;
+pub mod clock;
 pub mod field;
 pub mod frame;
 pub mod gpu;
 pub mod modes;
 pub mod present;
+pub mod reference;
 pub mod scene;
+pub mod stroke;
 pub mod surface;
