@@ -10,10 +10,10 @@ use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
 use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
-use crate::field::{Dirty, Field, base, compose, normals, pyramid, stamp};
+use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::present::{Present, PresentSet};
-use crate::scene::{Addressing, Scene};
+use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::surface::{Radiance, SurfaceSet};
 use crate::surface::{Albedo, Shadow, Shows, Surface, Technique, View, ViewSet, view};
@@ -138,8 +138,7 @@ impl Frame {
             }
             None => None,
         };
-        let (stamps, compose, normals, pyramid) =
-            (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let (stamp_set, compose_set, normals_set, pyramid_set) =
             (stamps.bind(gpu, &field), compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
         let present = Present::new(gpu, target)?;
@@ -273,20 +272,25 @@ impl Frame {
         self.traffic = Traffic::default();
         // Advance the waves by the steps that the clock owes, with the drops that fall before each.
         if let Some((waves, set)) = &mut self.waves {
-            let moved = waves.record(recorder, set, input.tick.steps, &input.strokes.splashes)?;
-            self.dirty.merge(&moved, self.field.size);
+            if waves.record(recorder, set, input.tick.steps, &input.strokes.splashes)? {
+                self.dirty = Dirty::All;
+            }
             self.traffic.wave_steps = input.tick.steps;
         }
         // Press this frame's stamps into the relief.
         let pressed = self.stamps.record(recorder, &mut self.stamp_set, &input.strokes.presses)?;
-        self.traffic.stamped_texels = pressed.area(self.field.size);
-        self.dirty.merge(&pressed, self.field.size);
+        self.traffic.stamped_texels = self.stamp_set.touched_texels();
+        for region in pressed.regions(self.field.size) {
+            self.dirty.add(region, self.field.size);
+        }
         let Some(target) = target else { return Ok(()) };
         // Derive what depends on the layers, where they changed.
-        let dirty = std::mem::take(&mut self.dirty);
-        self.traffic.derived_texels = dirty.area(self.field.size);
+        let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
+        self.traffic.derived_texels = changed.iter().map(Region::area).sum();
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
-        self.derive(recorder, &dirty);
+        if !changed.is_empty() {
+            self.derive(recorder, &changed);
+        }
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
         Ok(())
@@ -313,20 +317,20 @@ impl Frame {
     }
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
-    fn derive(&self, recorder: &mut Recorder<'_>, dirty: &Dirty) {
-        let (size, wraps) = (self.field.size, self.field.addressing == Addressing::Wrap);
+    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
+        let grown = |low, high| -> Vec<Region> {
+            changed.iter().flat_map(|region| region.grown(low, high, self.field.size, self.field.addressing)).collect()
+        };
         // Compose relief and waves into the height field proper.
         let (amplitude, current) = match (&self.scene.wave, &self.waves) {
             (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
             _ => (0.0, 0),
         };
-        self.compose.record(recorder, &self.compose_set, &dirty.regions(size), amplitude, current);
+        self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
-        let sloped = dirty.grown(1, 1, size, wraps).regions(size);
-        self.normals.record(recorder, &self.normals_set, &sloped, slope_per_height(&self.scene));
+        self.normals.record(recorder, &self.normals_set, &grown(1, 1), slope_per_height(&self.scene));
         // … and its bounds, which the cells before a texel see.
-        let bounded = dirty.grown(1, 0, size, wraps).regions(size);
-        self.pyramid.record(recorder, &self.pyramid_set, &bounded);
+        self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
     }
 
     /// Shows the field as it stands.

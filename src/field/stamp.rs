@@ -11,6 +11,9 @@ use super::{Dirty, Field};
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
 use crate::scene::Addressing;
 
+/// Bytes a texel of a touched tile by design: relief and material in and out.
+pub const TEXEL_BYTES: u64 = 16;
+
 /// The form of a stamp: its profile p over ρ, the distance from its centre in radii. Each is 0 from ρ = 1 on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u32)]
@@ -213,6 +216,13 @@ struct Buffers {
     records: List<StampRecord>,
 }
 
+impl StampSet {
+    /// Texels of the tiles that the last stamps touched, a tile at the border counted whole.
+    pub fn touched_texels(&self) -> u64 {
+        self.bins.tiles.len() as u64 * u64::from(self.ground.tile_texels).pow(2)
+    }
+}
+
 impl Stamps {
     /// Side of a tile, texels: one workgroup.
     pub const TILE: u32 = 16;
@@ -242,11 +252,7 @@ impl Stamps {
             "stamp",
             &["field/stamp"],
             "stamp_press",
-            &[
-                ("STAMP_TILE", f64::from(Self::TILE)),
-                ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM),
-                ("STAMP_LIP", CRATER_LIP),
-            ],
+            &[("STAMP_TILE", f64::from(Self::TILE)), ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM), ("STAMP_LIP", CRATER_LIP)],
             &[None, Some(&layout)],
         )?;
         Ok(Self { kernel, layout })

@@ -5,11 +5,14 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
 use super::Field;
+use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, UniformSlots};
 use crate::scene::{self, Boundary, Obstacle};
+
+/// Bytes a texel of one step by design: both states and the mask in, one state out.
+pub const TEXEL_BYTES: u64 = 13;
 
 /// The largest C² that is accepted. At ½ the checkerboard grows linearly; beyond it, exponentially.
 pub const MAX_COURANT_SQUARED: f64 = 0.49;
@@ -424,16 +427,7 @@ impl Waves {
             gpu,
             "wave splash",
             compute,
-            &[
-                Binding::Uniform,
-                Binding::Uint,
-                state,
-                state,
-                Binding::Read,
-                Binding::Read,
-                Binding::Read,
-                Binding::UniformSlot,
-            ],
+            &[Binding::Uniform, Binding::Uint, state, state, Binding::Read, Binding::Read, Binding::Read, Binding::UniformSlot],
         );
         let constants = [
             ("WAVE_STEP_X", f64::from(Self::STEP[0])),
@@ -445,9 +439,8 @@ impl Waves {
             ("WAVE_SOUTH", f64::from(Mask::SOUTH)),
             ("WAVE_FREE", f64::from(Mask::FREE)),
         ];
-        let kernel = |entry_point, layout| {
-            Kernel::new(gpu, "wave", &["field/wave"], entry_point, &constants, &[None, Some(layout)])
-        };
+        let kernel =
+            |entry_point, layout| Kernel::new(gpu, "wave", &["field/wave"], entry_point, &constants, &[None, Some(layout)]);
         let (step, splash) = (kernel("wave_step", &step_layout)?, kernel("wave_splash", &splash_layout)?);
         Ok(Self { step, splash, step_layout, splash_layout })
     }
