@@ -48,8 +48,7 @@ impl Channels {
         let view_layout = view::layout(gpu);
         let field_layout = field_layout(gpu);
         let output_layout = BindingLayout::new(gpu, "channels", wgpu::ShaderStages::COMPUTE, &[Binding::ReadWrite]);
-        let mut parts = parts(gpu, technique, shadow, albedo);
-        parts.push("surface/channels".to_owned());
+        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "channels");
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let mut constants = constants(albedo);
         constants.extend([("WORKGROUP_X", f64::from(Self::WORKGROUP[0])), ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1]))]);

@@ -1,0 +1,6 @@
+//! The one test binary, so that everything is linked once.
+//!
+//! - `house`, `shaders`: the house's rules, without a GPU.
+
+mod house;
+mod shaders;
