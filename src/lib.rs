@@ -48,5 +48,6 @@
 //! - **\[Zink\]** J. Zink, *A Closer Look at Parallax Occlusion Mapping*, GameDev.net 2006, revised 2008.
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
+pub mod gpu;
 pub mod scene;
 pub mod surface;
