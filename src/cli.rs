@@ -4,12 +4,12 @@
 //! scenes are content, not arguments: `io::scene_file` refuses those.
 
 use std::ffi::OsString;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Parser, Subcommand};
 
+use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::scene;
 use crate::suggest;
@@ -80,7 +80,7 @@ pub struct CommonOptions {
     field: Option<FieldSize>,
 
     /// A PNG or EXR file whose heights replace the scene's starting height [default: none, the scene's own]
-    #[arg(long, value_name = "IMAGE", value_parser = path, help_heading = "Scene")]
+    #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
     height: Option<PathBuf>,
 
     /// The values in the image that become heights 0 and 1 [default: 0,1]
@@ -130,7 +130,7 @@ pub struct MachineOptions {
 
     /// vulkan, metal, dx12 or gl [default: $WGPU_BACKEND, or else all of them]
     #[arg(long, value_name = "BACKEND", value_parser = backend, help_heading = "Machine")]
-    pub backend: Option<Backend>,
+    pub backend: Option<wgpu::Backends>,
 
     /// Tell more on stderr; $RUST_LOG chooses freely [default: notes and warnings]
     #[arg(short, long, conflicts_with = "quiet", help_heading = "Machine")]
@@ -142,39 +142,16 @@ pub struct MachineOptions {
 }
 
 impl MachineOptions {
+    /// The adapters that may be used, hardware first; the environment completes what the arguments leave open.
+    pub fn preference(&self) -> Preference {
+        Preference { name: self.adapter.clone(), backend: self.backend, ..Preference::default() }.with_environment()
+    }
+
     fn verbosity(&self) -> Verbosity {
         match (self.quiet, self.verbose) {
             (true, _) => Verbosity::Quiet,
             (_, true) => Verbosity::Verbose,
             _ => Verbosity::Normal,
-        }
-    }
-}
-
-/// The graphics interfaces that an adapter can be reached by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Backend {
-    /// Vulkan.
-    Vulkan,
-    /// Metal.
-    Metal,
-    /// Direct3D 12.
-    Dx12,
-    /// OpenGL or OpenGL ES.
-    Gl,
-}
-
-impl Backend {
-    const ALL: [(&'static str, Self); 4] =
-        [("vulkan", Self::Vulkan), ("metal", Self::Metal), ("dx12", Self::Dx12), ("gl", Self::Gl)];
-
-    /// wgpu's own word for it.
-    pub fn wgpu(self) -> wgpu::Backends {
-        match self {
-            Self::Vulkan => wgpu::Backends::VULKAN,
-            Self::Metal => wgpu::Backends::METAL,
-            Self::Dx12 => wgpu::Backends::DX12,
-            Self::Gl => wgpu::Backends::GL,
         }
     }
 }
@@ -191,7 +168,7 @@ pub struct LiveOptions {
     pub frames: Option<u32>,
 
     /// Write the last of those frames here, as capture would [default: none, nothing is written]
-    #[arg(long, value_name = "DIR", value_parser = path, requires = "frames")]
+    #[arg(long, value_name = "DIR", requires = "frames")]
     pub out: Option<PathBuf>,
 }
 
@@ -203,7 +180,7 @@ pub struct CaptureOptions {
     pub common: CommonOptions,
 
     /// The directory to write to; frames, fields and the manifest of an earlier run are removed from it
-    #[arg(long, value_name = "DIR", value_parser = path)]
+    #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 
     /// How many frames to write
@@ -259,16 +236,8 @@ pub enum Channel {
 
 impl Channel {
     /// All of them, in the order of the documentation.
-    pub const ALL: [Self; 8] = [
-        Self::Color,
-        Self::Position,
-        Self::Normal,
-        Self::Uv,
-        Self::Height,
-        Self::Visibility,
-        Self::Steps,
-        Self::Lod,
-    ];
+    pub const ALL: [Self; 8] =
+        [Self::Color, Self::Position, Self::Normal, Self::Uv, Self::Height, Self::Visibility, Self::Steps, Self::Lod];
 
     /// Its name on the command line and in files.
     pub const fn name(self) -> &'static str {
@@ -305,7 +274,7 @@ pub struct StressOptions {
     pub stamp_radius: f32,
 
     /// Also write the numbers here [default: none, they are only printed]
-    #[arg(long, value_name = "FILE", value_parser = path)]
+    #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 }
 
@@ -380,13 +349,10 @@ fn sentence(error: &clap::Error) -> String {
     let argument = text(ContextKind::InvalidArg).unwrap_or_default();
     let value = text(ContextKind::InvalidValue).unwrap_or_default();
     match error.kind() {
-        ErrorKind::UnknownArgument => {
-            let mut sentence = format!("unknown argument `{argument}`");
-            if let Some(near) = text(ContextKind::SuggestedArg) {
-                let _ = write!(sentence, ": did you mean `{near}`?");
-            }
-            sentence + if sentence_ended(&sentence) { " `--help` lists them all" } else { ": `--help` lists them all" }
-        }
+        ErrorKind::UnknownArgument => match text(ContextKind::SuggestedArg) {
+            Some(near) => format!("unknown argument `{argument}`: did you mean `{near}`, of those that `--help` lists?"),
+            None => format!("unknown argument `{argument}`: `--help` lists those there are"),
+        },
         ErrorKind::InvalidSubcommand => {
             let name = text(ContextKind::InvalidSubcommand).unwrap_or_default();
             suggest::unknown("mode", &name, &["live", "capture", "stress", "adapters", "scenes"])
@@ -409,10 +375,6 @@ fn sentence(error: &clap::Error) -> String {
             line.strip_prefix("error: ").unwrap_or(line).to_owned()
         }
     }
-}
-
-fn sentence_ended(text: &str) -> bool {
-    text.ends_with('?')
 }
 
 fn technique_help() -> String {
@@ -441,18 +403,18 @@ fn channel(text: &str) -> Result<Channel, String> {
     found.ok_or_else(|| suggest::unknown("channel", text, &names))
 }
 
-fn backend(text: &str) -> Result<Backend, String> {
-    let names = Backend::ALL.map(|(name, _)| name);
-    let found = Backend::ALL.into_iter().find(|&(name, _)| name == text);
-    found.map(|(_, backend)| backend).ok_or_else(|| suggest::unknown("backend", text, &names))
+fn backend(text: &str) -> Result<wgpu::Backends, String> {
+    match text {
+        "vulkan" => Ok(wgpu::Backends::VULKAN),
+        "metal" => Ok(wgpu::Backends::METAL),
+        "dx12" => Ok(wgpu::Backends::DX12),
+        "gl" => Ok(wgpu::Backends::GL),
+        _ => Err(suggest::unknown("backend", text, &["vulkan", "metal", "dx12", "gl"])),
+    }
 }
 
 fn non_empty(text: &str) -> Result<String, String> {
     if text.is_empty() { Err("it is empty".to_owned()) } else { Ok(text.to_owned()) }
-}
-
-fn path(text: &str) -> Result<PathBuf, String> {
-    non_empty(text).map(PathBuf::from)
 }
 
 fn whole_u64(text: &str) -> Result<u64, String> {
@@ -486,7 +448,9 @@ fn field(text: &str) -> Result<FieldSize, String> {
     if let Ok(width) = positive_u32(text) {
         return Ok(FieldSize::Width(width));
     }
-    size(text).map(FieldSize::Exactly).map_err(|_| "it must be a width like 512, or a size like 1024x512, of at least 1".to_owned())
+    size(text)
+        .map(FieldSize::Exactly)
+        .map_err(|_| "it must be a width like 512, or a size like 1024x512, of at least 1".to_owned())
 }
 
 /// Finite numbers between commas, exactly `N` of them.

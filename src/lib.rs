@@ -48,6 +48,9 @@
 //! - **\[Zink\]** J. Zink, *A Closer Look at Parallax Occlusion Mapping*, GameDev.net 2006, revised 2008.
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
+pub mod cli;
 pub mod gpu;
+pub mod io;
 pub mod scene;
+pub mod suggest;
 pub mod surface;

@@ -4,7 +4,7 @@
 pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
     let list = enumerate(known, "and");
     match nearest(name, known) {
-        Some(nearest) => format!("unknown {kind} `{name}`: did you mean `{nearest}`? Known are {list}"),
+        Some(nearest) => format!("unknown {kind} `{name}`: did you mean `{nearest}`, of {list}?"),
         None => format!("unknown {kind} `{name}`: known are {list}"),
     }
 }
@@ -48,7 +48,7 @@ mod tests {
     #[test]
     fn the_sentence_lists_what_there_is() {
         let sentence = unknown("technique", "exat", &["normal", "pom", "exact"]);
-        assert_eq!(sentence, "unknown technique `exat`: did you mean `exact`? Known are normal, pom and exact");
+        assert_eq!(sentence, "unknown technique `exat`: did you mean `exact`, of normal, pom and exact?");
         assert_eq!(unknown("scene", "zzz", &["only"]), "unknown scene `zzz`: known are only");
     }
 }

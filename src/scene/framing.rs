@@ -35,6 +35,9 @@ impl Scene {
             .map(|side| DQuat::from_rotation_y(f64::from(side) * std::f64::consts::TAU / f64::from(sides)) * from_target)
             .flat_map(|away| corners.map(|corner| distance_to_see(corner - target, away.normalize(), half)))
             .fold(from_target.length(), f64::max);
+        if distance <= from_target.length() {
+            return camera.clone();
+        }
         Camera { eye: (target + from_target.normalize() * distance).to_array(), ..camera.clone() }
     }
 }
@@ -53,11 +56,11 @@ fn distance_to_see(point: DVec3, away: DVec3, half: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DMat4;
+    use glam::dcamera::rh::view::look_at_mat4;
 
     /// The largest |x| or |y| of a corner in normalised device coordinates; infinite where one lies behind the eye.
     fn reach(scene: &Scene, camera: &Camera, aspect: f64) -> f64 {
-        let view = DMat4::look_at_rh(camera.eye.into(), camera.target.into(), DVec3::Y);
+        let view = look_at_mat4(camera.eye.into(), camera.target.into(), DVec3::Y);
         let tangent = (camera.vertical_fov_degrees.to_radians() / 2.0).tan();
         let [x, z] = scene.plane_size_metres().map(|extent| f64::from(extent) / 2.0);
         [[-x, -z], [x, -z], [-x, z], [x, z]]
@@ -89,10 +92,7 @@ mod tests {
     fn a_camera_that_sees_the_plane_stays() {
         let mut scene = Scene::default();
         scene.camera.eye = [0.0, 5.0, 5.0];
-        assert_eq!(scene.framing(1.5).target, scene.camera.target);
-        for (framed, own) in scene.framing(1.5).eye.iter().zip(scene.camera.eye) {
-            assert!((framed - own).abs() < 1e-12);
-        }
+        assert_eq!(scene.framing(1.5), scene.camera);
     }
 
     #[test]

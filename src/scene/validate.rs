@@ -211,11 +211,19 @@ fn validate_material(material: &Material) -> Result<(), SceneError> {
 
 fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
     if let Err(problem) = check_camera(camera.eye, camera.target) {
-        return refuse("camera.eye", format!("{:?} with `camera.target` {:?}", camera.eye, camera.target), format!("another: {problem}"));
+        return refuse(
+            "camera.eye",
+            format!("{:?} with `camera.target` {:?}", camera.eye, camera.target),
+            format!("another: {problem}"),
+        );
     }
     number("camera.vertical_fov_degrees", camera.vertical_fov_degrees, VERTICAL_FOV_DEGREES)?;
     number("camera.near_metres", camera.near_metres, Range::above(0.0, 1e4, "metres"))?;
-    number("camera.orbit_degrees_per_second", camera.orbit_degrees_per_second, Range::from_to(-3600.0, 3600.0, "degrees per second"))
+    number(
+        "camera.orbit_degrees_per_second",
+        camera.orbit_degrees_per_second,
+        Range::from_to(-3600.0, 3600.0, "degrees per second"),
+    )
 }
 
 #[cfg(test)]
