@@ -6,7 +6,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
+use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use super::{Dirty, Field};
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
 use crate::scene::Addressing;
@@ -124,26 +124,20 @@ impl Stamp {
     }
 }
 
-/// A stamp as the shader reads it, once for each image of the field that it covers.
+/// What the shader needs of a stamp besides its disc.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct StampRecord {
-    /// [`Stamp::centre`].
-    pub centre: [f32; 2],
-    /// [`Image::shift`].
-    pub shift: [i32; 2],
-    /// [`Stamp::radius`].
-    pub radius: f32,
     /// [`Stamp::height`].
     pub height: f32,
     /// [`Stamp::level`].
     pub level: f32,
     /// [`Stamp::alpha`].
     pub alpha: f32,
-    /// [`Stamp::phase`] as a unit complex number: the shader needs no trigonometry, whose precision WGSL leaves open.
-    pub phase: [f32; 2],
     /// [`Stamp::irregularity`].
     pub irregularity: f32,
+    /// [`Stamp::phase`] as a unit complex number: the shader needs no trigonometry, whose precision WGSL leaves open.
+    pub phase: [f32; 2],
     /// [`Stamp::soot`].
     pub soot: f32,
     /// [`Stamp::bare`].
@@ -152,28 +146,21 @@ pub struct StampRecord {
     pub profile: u32,
     /// [`Stamp::blend`].
     pub blend: u32,
-    /// Fills the last 16 bytes.
-    pub spare: u32,
 }
 
-impl StampRecord {
-    /// What the shader needs of a stamp in one image of the field.
-    pub fn new(stamp: &Stamp, image: Image) -> Self {
+impl From<&Stamp> for StampRecord {
+    fn from(stamp: &Stamp) -> Self {
         let (sin, cos) = f64::from(stamp.phase).sin_cos();
         Self {
-            centre: stamp.centre,
-            shift: image.shift,
-            radius: stamp.radius,
             height: stamp.height,
             level: stamp.level,
             alpha: stamp.alpha,
-            phase: [cos as f32, sin as f32],
             irregularity: stamp.irregularity,
+            phase: [cos as f32, sin as f32],
             soot: stamp.soot,
             bare: stamp.bare,
             profile: stamp.profile as u32,
             blend: stamp.blend as u32,
-            spare: 0,
         }
     }
 }
@@ -209,7 +196,7 @@ pub struct StampSet {
 struct Buffers {
     params: Uniform<StampParams>,
     tiles: List<Tile>,
-    members: List<u32>,
+    members: List<Member>,
     records: List<StampRecord>,
 }
 
@@ -289,14 +276,13 @@ impl Stamps {
     pub fn record(&self, recorder: &mut Recorder<'_>, set: &mut StampSet, stamps: &[Stamp]) -> Result<Dirty, BinError> {
         let gpu = recorder.gpu;
         set.bins.clear();
-        // The longest list is the records', where each tile has one.
-        let limit = List::<StampRecord>::limit(gpu);
+        let limit = List::<Member>::limit(gpu).min(List::<Tile>::limit(gpu));
         let batch = set.bins.add(set.ground, stamps.iter().map(Stamp::disc), limit)?;
         if batch.tile_count == 0 {
             return Ok(Dirty::Nothing);
         }
         set.records.clear();
-        set.records.extend(set.bins.images.iter().map(|image| StampRecord::new(&stamps[image.disc as usize], *image)));
+        set.records.extend(stamps.iter().map(StampRecord::from));
         self.upload(gpu, set, batch.tile_count);
         recorder.compute("stamp", |pass| {
             pass.set_pipeline(&self.kernel.pipeline);
