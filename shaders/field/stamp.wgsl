@@ -4,10 +4,14 @@
 //   material_map  r32uint   read-write  4×unorm8: r = soot, g = bare (fresh broken material), b and a = 0
 //
 // One workgroup a touched tile gathers its stamps: no two write the same texel, so blends keep their order. 8 bytes a texel of
-// a touched tile read and, where a stamp covers it, written; a stamp that misses a texel costs it a distance.
+// a touched tile read and, where a stamp covers it, written; half of that if all stamps are plain. A stamp that misses a texel
+// costs it a distance.
 // Specification: src/reference/stamp.rs.
 
-override STAMP_TILE: u32;
+override STAMP_TILE_X: u32;
+override STAMP_TILE_Y: u32;
+// Whether all stamps are round and leave the material alone.
+override STAMP_PLAIN: bool;
 // The crater: its rim as a fraction of the radius, squared, and its lip's height as a fraction of its depth.
 override STAMP_RIM_SQUARED: f32;
 override STAMP_LIP: f32;
@@ -61,7 +65,7 @@ struct StampTile {
 @group(1) @binding(5) var<storage, read> stamps: array<StampRecord>;
 
 // Four texels of a column at a time, a vector of them: what is read of a stamp serves them all.
-@compute @workgroup_size(STAMP_TILE, STAMP_TILE / 4)
+@compute @workgroup_size(STAMP_TILE_X, STAMP_TILE_Y / 4)
 fn stamp_press(
     @builtin(workgroup_id) workgroup: vec3u,
     @builtin(num_workgroups) workgroups: vec3u,
@@ -72,7 +76,7 @@ fn stamp_press(
         return;
     }
     let tile = tiles[index];
-    let texel = tile.tile * STAMP_TILE + vec2u(local.x, 4u * local.y);
+    let texel = tile.tile * vec2u(STAMP_TILE_X, STAMP_TILE_Y) + vec2u(local.x, 4u * local.y);
     if any(texel >= params.size) {
         return;
     }
@@ -87,9 +91,14 @@ fn stamp_press(
     var bare: vec4f;
     for (var k = 0u; k < 4u; k++) {
         height[k] = textureLoad(relief, vec2u(texel.x, rows[k])).x;
+        if !STAMP_PLAIN {
+            material[k] = textureLoad(material_map, vec2u(texel.x, rows[k])).x;
+            let unpacked = unpack4x8unorm(material[k]);
+            soot[k] = unpacked.r;
+            bare[k] = unpacked.g;
+        }
     }
     var covered = vec4<bool>(false);
-    var soiled = false;
     for (var i = tile.first; i < tile.first + tile.count; i++) {
         let member = members[i];
         let offset_x = vec4f(from_tile.x - member.centre.x);
@@ -104,16 +113,7 @@ fn stamp_press(
         let s = stamp_irregular(stamp, offset_x, offset_y, squared, 1.0 / (member.radius * member.radius));
         let profile = stamp_profile(stamp.profile, s);
         height = select(height, stamp_blend(stamp, height, profile), inside);
-        if stamp.soot > 0.0 || stamp.bare > 0.0 {
-            if !soiled {
-                for (var k = 0u; k < 4u; k++) {
-                    material[k] = textureLoad(material_map, vec2u(texel.x, rows[k])).x;
-                    let unpacked = unpack4x8unorm(material[k]);
-                    soot[k] = unpacked.r;
-                    bare[k] = unpacked.g;
-                }
-                soiled = true;
-            }
+        if !STAMP_PLAIN {
             // What lies within the rim is laid bare, which takes the old soot with it; then new soot falls, most round the rim.
             let bared = stamp.bare * (1.0 - smoothstep(vec4f(0.5 * STAMP_RIM_SQUARED), vec4f(STAMP_RIM_SQUARED), s));
             let falloff = max(vec4f(0.0), 1.0 - s);
@@ -126,7 +126,7 @@ fn stamp_press(
     for (var k = 0u; k < 4u; k++) {
         if covered[k] {
             textureStore(relief, vec2u(texel.x, rows[k]), vec4f(height[k], 0.0, 0.0, 0.0));
-            if soiled {
+            if !STAMP_PLAIN {
                 let packed = pack4x8unorm(vec4f(soot[k], bare[k], 0.0, 0.0)) | (material[k] & 0xffff0000u);
                 textureStore(material_map, vec2u(texel.x, rows[k]), vec4u(packed, 0u, 0u, 0u));
             }
@@ -150,7 +150,7 @@ fn stamp_blend(stamp: StampRecord, height: vec4f, profile: vec4f) -> vec4f {
 // alike.
 fn stamp_irregular(stamp: StampRecord, x: vec4f, y: vec4f, squared: vec4f, inverse_squared_radius: f32) -> vec4f {
     let s = squared * inverse_squared_radius;
-    if stamp.irregularity == 0.0 {
+    if STAMP_PLAIN {
         return s;
     }
     // At the very centre any direction will do.
@@ -189,9 +189,9 @@ fn stamp_profile(profile: u32, s: vec4f) -> vec4f {
 
 // A bowl from −1 up to its lip, and the lip's outer flank: slopes vanish at the centre, on the lip and at the border.
 fn stamp_crater(s: vec4f) -> vec4f {
-    let x = s / STAMP_RIM_SQUARED;
+    let x = s * (1.0 / STAMP_RIM_SQUARED);
     let bowl = (1.0 + STAMP_LIP) * x * x * (3.0 - 2.0 * x) - 1.0;
-    let y = saturate((s - STAMP_RIM_SQUARED) / (1.0 - STAMP_RIM_SQUARED));
+    let y = saturate((s - STAMP_RIM_SQUARED) * (1.0 / (1.0 - STAMP_RIM_SQUARED)));
     let w = (1.0 - y) * (1.0 - y);
     let flank = STAMP_LIP * w * w * (1.0 + 4.0 * y);
     return select(flank, bowl, x < vec4f(1.0));

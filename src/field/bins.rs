@@ -1,4 +1,4 @@
-//! Binning discs into square tiles, on the CPU: which tiles they touch, and in which order each tile must gather them.
+//! Binning discs into tiles, on the CPU: which tiles they touch, and in which order each tile must gather them.
 //!
 //! A counting sort by tile, stable: within a tile the discs keep the order of their submission, so that ordered blends are
 //! deterministic. Where the field wraps, a disc over a border is gathered once for each image of the field that it covers.
@@ -94,8 +94,8 @@ pub struct Ground {
     pub size: [u32; 2],
     /// Whether it repeats beyond its border.
     pub wrap: bool,
-    /// Side of a tile, texels.
-    pub tile_texels: u32,
+    /// Width and height of a tile, texels.
+    pub tile: [u32; 2],
 }
 
 impl Bins {
@@ -108,8 +108,7 @@ impl Bins {
 
     /// Appends a batch of discs: its tiles list its discs alone. `limit` is the most members that all batches together may have.
     pub fn add(&mut self, ground: Ground, discs: impl Iterator<Item = Disc>, limit: u64) -> Result<Batch, BinError> {
-        let columns = ground.size[0].div_ceil(ground.tile_texels);
-        let rows = ground.size[1].div_ceil(ground.tile_texels);
+        let [columns, rows] = [0, 1].map(|axis| ground.size[axis].div_ceil(ground.tile[axis]));
         let first_tile = self.tiles.len() as u32;
         let mut dirty = Dirty::Nothing;
 
@@ -160,8 +159,8 @@ impl Bins {
     fn add_disc(&mut self, ground: Ground, disc: Disc, dirty: &mut Dirty) {
         let Some([xs, ys]) = images(ground, disc) else { return };
         let radius = f64::from(disc.radius) + SLACK;
-        let tile = f64::from(ground.tile_texels);
-        let columns = ground.size[0].div_ceil(ground.tile_texels);
+        let tile = ground.tile.map(f64::from);
+        let columns = ground.size[0].div_ceil(ground.tile[0]);
         // The casts hold: the caller has bounded the number of images, and `images` their distance.
         for y in ys.0 as i64..=ys.1 as i64 {
             for x in xs.0 as i64..=xs.1 as i64 {
@@ -175,12 +174,13 @@ impl Bins {
                 }
                 let (origin, end) = (first.map(|value| value as u32), last.map(|value| value as u32 + 1));
                 dirty.add(Region { origin, extent: [end[0] - origin[0], end[1] - origin[1]] }, ground.size);
-                let (low, high) = (first.map(|value| (value / tile) as u32), last.map(|value| (value / tile) as u32));
+                let (low, high) =
+                    ([0, 1].map(|axis| origin[axis] / ground.tile[axis]), [0, 1].map(|axis| (end[axis] - 1) / ground.tile[axis]));
                 for row in low[1]..=high[1] {
                     for column in low[0]..=high[0] {
-                        let from_tile = [centre[0] - f64::from(column) * tile, centre[1] - f64::from(row) * tile];
+                        let from_tile = [centre[0] - f64::from(column) * tile[0], centre[1] - f64::from(row) * tile[1]];
                         // The corners of the box that the disc does not reach are left out.
-                        let gap = from_tile.map(|from_tile| (-from_tile).max(from_tile - (tile - 1.0)).max(0.0));
+                        let gap = [0, 1].map(|axis| (-from_tile[axis]).max(from_tile[axis] - (tile[axis] - 1.0)).max(0.0));
                         if gap[0] * gap[0] + gap[1] * gap[1] < radius * radius {
                             let centre = from_tile.map(|from_tile| from_tile as f32);
                             let member = Member { centre, radius: disc.radius, disc: self.discs };
@@ -218,8 +218,8 @@ fn tile_estimate(ground: Ground, disc: Disc) -> f64 {
     let Some(ranges) = images(ground, disc) else { return 0.0 };
     let along = |axis: usize| {
         let (first, last) = ranges[axis];
-        let tiles = f64::from(ground.size[axis].div_ceil(ground.tile_texels));
-        let across = (2.0 * (f64::from(disc.radius) + SLACK) / f64::from(ground.tile_texels)).floor() + 2.0;
+        let tiles = f64::from(ground.size[axis].div_ceil(ground.tile[axis]));
+        let across = (2.0 * (f64::from(disc.radius) + SLACK) / f64::from(ground.tile[axis])).floor() + 2.0;
         (last - first + 1.0) * across.min(tiles)
     };
     along(0) * along(1)

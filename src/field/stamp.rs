@@ -122,6 +122,11 @@ impl Stamp {
     pub const fn disc(&self) -> Disc {
         Disc { centre: self.centre, radius: self.radius }
     }
+
+    /// Whether it is round and leaves the material alone.
+    fn is_plain(&self) -> bool {
+        self.irregularity == 0.0 && self.soot == 0.0 && self.bare == 0.0
+    }
 }
 
 /// What the shader needs of a stamp besides its disc.
@@ -179,7 +184,10 @@ pub struct StampParams {
 
 /// Presses stamps.
 pub struct Stamps {
-    kernel: Kernel,
+    /// For stamps that are round and leave the material alone, all of them.
+    plain: Kernel,
+    /// For any.
+    full: Kernel,
     layout: BindingLayout,
 }
 
@@ -201,8 +209,9 @@ struct Buffers {
 }
 
 impl Stamps {
-    /// Side of a tile, texels: one workgroup.
-    pub const TILE: u32 = 16;
+    /// Width and height of a tile, texels: one workgroup, of which each invocation takes four texels of a column. Smaller tiles
+    /// gather fewer stamps that miss most of them.
+    pub const TILE: [u32; 2] = [16, 8];
 
     /// Builds the pipeline.
     ///
@@ -224,19 +233,19 @@ impl Stamps {
                 Binding::Read,
             ],
         );
-        let kernel = Kernel::new(
-            gpu,
-            "stamp",
-            &["field/stamp"],
-            "stamp_press",
-            &[
-                ("STAMP_TILE", f64::from(Self::TILE)),
+        // Two kernels, since a branch that no texel takes still costs a software adapter all that it skips.
+        let kernel = |plain: bool| {
+            let constants = [
+                ("STAMP_TILE_X", f64::from(Self::TILE[0])),
+                ("STAMP_TILE_Y", f64::from(Self::TILE[1])),
                 ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM),
                 ("STAMP_LIP", CRATER_LIP),
-            ],
-            &[None, Some(&layout)],
-        )?;
-        Ok(Self { kernel, layout })
+                ("STAMP_PLAIN", f64::from(u8::from(plain))),
+            ];
+            Kernel::new(gpu, "stamp", &["field/stamp"], "stamp_press", &constants, &[None, Some(&layout)])
+        };
+        let (plain, full) = (kernel(true)?, kernel(false)?);
+        Ok(Self { plain, full, layout })
     }
 
     /// Binds a field.
@@ -250,7 +259,7 @@ impl Stamps {
         };
         let layers = [field.relief.view.clone(), field.material.view.clone()];
         let group = self.group(gpu, &layers, &buffers);
-        let ground = Ground { size: field.size, wrap: field.addressing == Addressing::Wrap, tile_texels: Self::TILE };
+        let ground = Ground { size: field.size, wrap: field.addressing == Addressing::Wrap, tile: Self::TILE };
         StampSet { ground, bins: Bins::default(), records: Vec::new(), buffers, layers, group }
     }
 
@@ -284,8 +293,9 @@ impl Stamps {
         set.records.clear();
         set.records.extend(stamps.iter().map(StampRecord::from));
         self.upload(gpu, set, batch.tile_count);
+        let kernel = if stamps.iter().all(Stamp::is_plain) { &self.plain } else { &self.full };
         recorder.compute("stamp", |pass| {
-            pass.set_pipeline(&self.kernel.pipeline);
+            pass.set_pipeline(&kernel.pipeline);
             pass.set_bind_group(1, &set.group, &[]);
             let [x, y] = tile_workgroups(batch.tile_count);
             pass.dispatch_workgroups(x, y, 1);

@@ -5,8 +5,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use super::Field;
+use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, UniformSlots};
 use crate::scene::{self, Boundary, Obstacle};
@@ -406,16 +406,7 @@ impl Waves {
             gpu,
             "wave splash",
             compute,
-            &[
-                Binding::Uniform,
-                Binding::Uint,
-                state,
-                state,
-                Binding::Read,
-                Binding::Read,
-                Binding::Read,
-                Binding::UniformSlot,
-            ],
+            &[Binding::Uniform, Binding::Uint, state, state, Binding::Read, Binding::Read, Binding::Read, Binding::UniformSlot],
         );
         let constants = [
             ("WAVE_STEP_X", f64::from(Self::STEP[0])),
@@ -427,9 +418,8 @@ impl Waves {
             ("WAVE_SOUTH", f64::from(Mask::SOUTH)),
             ("WAVE_FREE", f64::from(Mask::FREE)),
         ];
-        let kernel = |entry_point, layout| {
-            Kernel::new(gpu, "wave", &["field/wave"], entry_point, &constants, &[None, Some(layout)])
-        };
+        let kernel =
+            |entry_point, layout| Kernel::new(gpu, "wave", &["field/wave"], entry_point, &constants, &[None, Some(layout)]);
         let (step, splash) = (kernel("wave_step", &step_layout)?, kernel("wave_splash", &splash_layout)?);
         Ok(Self { step, splash, step_layout, splash_layout })
     }
@@ -448,7 +438,7 @@ impl Waves {
         let states = [field.wave[0].view.clone(), field.wave[1].view.clone()];
         let (step_groups, splash_groups) = self.groups(gpu, &mask_view, &states, &buffers);
         let mut set = WaveSet {
-            ground: Ground { size: field.size, wrap: false, tile_texels: Self::TILE },
+            ground: Ground { size: field.size, wrap: false, tile: [Self::TILE; 2] },
             mask: Mask::new(field.size, wave.boundary, |_, _| false),
             bins: Bins::default(),
             impulses: Vec::new(),

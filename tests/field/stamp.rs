@@ -132,7 +132,10 @@ fn many_stamps_on_top_of_one_another_equal_the_reference_in_their_order() {
             // On a tiny wrapping field one stamp falls upon a texel many times.
             let largest = expected.relief.iter().fold(1.0_f64, |largest, height| largest.max(height.abs()));
             let falls = 60.0 * if wrap { (24.0 / f64::from(size[0].min(size[1])) + 1.0).powi(2) } else { 1.0 };
-            assert!(relief <= STAMP_HEIGHT_EACH * falls * largest, "{size:?}, wrap {wrap}: {relief:.2e}, {falls} falls, {largest}");
+            assert!(
+                relief <= STAMP_HEIGHT_EACH * falls * largest,
+                "{size:?}, wrap {wrap}: {relief:.2e}, {falls} falls, {largest}"
+            );
             assert!(material <= STAMP_MATERIAL, "{size:?}, wrap {wrap}: material differs by {material:.2e}");
         }
     }
@@ -140,7 +143,14 @@ fn many_stamps_on_top_of_one_another_equal_the_reference_in_their_order() {
 
 #[test]
 fn the_order_of_replacing_matters_and_is_that_of_submission() {
-    let disc = |level| Stamp { centre: [20.0, 20.0], level, height: 0.0, blend: Blend::Replace, profile: Profile::Disc, ..Stamp::default() };
+    let disc = |level| Stamp {
+        centre: [20.0, 20.0],
+        level,
+        height: 0.0,
+        blend: Blend::Replace,
+        profile: Profile::Disc,
+        ..Stamp::default()
+    };
     for order in [[0.2, 0.6], [0.6, 0.2]] {
         let Some(mut wall) = Wall::new([40, 40], Addressing::Clamp, 1.0) else { return };
         wall.press(&order.map(disc));
@@ -238,7 +248,10 @@ fn nothing_changes_outside_what_is_said_to_be_dirty_nor_beyond_a_radius() {
                 let held = dirty.iter().any(|region| {
                     (0..2).all(|axis| (region.origin[axis]..region.origin[axis] + region.extent[axis]).contains(&texel[axis]))
                 });
-                assert!(held || (before.0[index] == after.0[index] && before.1[index] == after.1[index]), "{texel:?} of {dirty:?}");
+                assert!(
+                    held || (before.0[index] == after.0[index] && before.1[index] == after.1[index]),
+                    "{texel:?} of {dirty:?}"
+                );
             }
         }
     }
@@ -294,7 +307,8 @@ fn ten_thousand_fit_and_what_does_not_fit_says_so() {
 
     let huge = vec![Stamp { radius: 1e6, ..Stamp::default() }; 3];
     let before = wall.relief();
-    let error = run(wall.gpu, |recorder| wall.stamps.record(recorder, &mut wall.set, &huge)).expect_err("no buffer is that large");
+    let error =
+        run(wall.gpu, |recorder| wall.stamps.record(recorder, &mut wall.set, &huge)).expect_err("no buffer is that large");
     assert!(matches!(error, BinError::TooMany { discs: 3, .. }));
     assert!(error.to_string().ends_with("press fewer or smaller ones"), "{error}");
     assert_eq!(before, wall.relief());
@@ -312,19 +326,32 @@ fn four_thousand_stamps_cost_at_most_two_wave_steps() {
     let wave = scene::Wave { boundary: Boundary::Periodic, ..scene::Wave::default() };
     let field = Field::new(wall.gpu, size, Addressing::Wrap, true);
     let mut pool = waves.bind(wall.gpu, &field, &wave, [1.0, 1.0]);
-    // In turn, so that both see the same machine; the least of each, since other processes only add.
-    let (mut stamp, mut steps) = (f64::INFINITY, f64::INFINITY);
-    for frame in 0..30 {
-        let discs: Vec<_> = stress_discs(0, frame, 4096, 8.0, size).collect();
-        let (_, passes) = run_timed(wall.gpu, |recorder| {
-            waves.record(recorder, &mut pool, 2, &[]).expect("no impulses");
-            wall.stamps.record(recorder, &mut wall.set, &discs).expect("they fit");
-        });
-        let time = |name: &str| passes.iter().find(|pass| pass.name == name).expect("it was recorded").milliseconds;
-        (steps, stamp) = (steps.min(time("wave")), stamp.min(time("stamp")));
-    }
-    println!("4,096 stamps of radius 8: {stamp:.2} ms; two wave steps at 1024²: {steps:.2} ms");
-    assert!(stamp <= STAMP_BUDGET_STEPS * steps / 2.0, "{stamp:.2} ms of {steps:.2} ms");
+    // Stamps beside steps in one submission, so that both see the same machine, and the median of their ratios.
+    let mut median_ratio = |name: &str, stamps_of: &dyn Fn(u64) -> Vec<Stamp>| {
+        let mut ratios: Vec<_> = (0..31)
+            .map(|frame| {
+                let discs = stamps_of(frame);
+                let (_, passes) = run_timed(wall.gpu, |recorder| {
+                    waves.record(recorder, &mut pool, 2, &[]).expect("no impulses");
+                    wall.stamps.record(recorder, &mut wall.set, &discs).expect("they fit");
+                });
+                let time = |name: &str| passes.iter().find(|pass| pass.name == name).expect("it was recorded").milliseconds;
+                time("stamp") / time("wave")
+            })
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        println!("4,096 {name} of radius 8 at 1024²: {:.2} wave steps", 2.0 * ratios[15]);
+        2.0 * ratios[15]
+    };
+    let discs = |frame| stress_discs(0, frame, 4096, 8.0, size).collect::<Vec<_>>();
+    let craters = |frame| {
+        let crater = |disc| Stamp { profile: Profile::Crater, irregularity: 0.5, soot: 0.5, bare: 1.0, ..disc };
+        stress_discs(0, frame, 4096, 8.0, size).map(crater).collect::<Vec<_>>()
+    };
+    let steps = median_ratio("discs", &discs);
+    assert!(steps <= STAMP_BUDGET_STEPS, "{steps:.2} wave steps");
+    // What a stamp can do at most; its margin is too small to be held to it on a busy machine.
+    median_ratio("irregular craters with soot", &craters);
 }
 
 #[test]

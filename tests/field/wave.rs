@@ -42,7 +42,8 @@ impl Pool {
     }
 
     fn run(&mut self, steps: u32, splashes: &[(u32, Impulse)]) -> bool {
-        run(self.gpu, |recorder| self.waves.record(recorder, &mut self.set, steps, splashes)).expect("few impulses fit every buffer")
+        run(self.gpu, |recorder| self.waves.record(recorder, &mut self.set, steps, splashes))
+            .expect("few impulses fit every buffer")
     }
 
     /// u and u⁻ as the reference holds them, for its measures.
@@ -115,9 +116,7 @@ fn equals_the_reference_with_every_boundary_and_obstacles() {
                 frame += 1;
                 let splashes: Vec<_> = (0..steps.max(1))
                     .filter(|step| step % 9 == 0)
-                    .flat_map(|step| {
-                        (0..3).map(|_| (step, splash_anywhere(&mut random, size))).collect::<Vec<_>>()
-                    })
+                    .flat_map(|step| (0..3).map(|_| (step, splash_anywhere(&mut random, size))).collect::<Vec<_>>())
                     .collect();
                 assert!(pool.run(steps, &splashes));
                 for step in 0..steps.max(1) {
@@ -252,7 +251,9 @@ fn impulses_have_no_net_even_where_obstacles_and_borders_cut_them() {
         let mut scene = scene(boundary, 0.7, 0.0);
         scene.obstacles = vec![block(size, [20.0, 16.0], [4.4, 2.4])];
         let Some(mut pool) = Pool::new(size, scene) else { return };
-        for (centre, radius) in [([10.0, 9.0], 6.0), ([15.3, 15.8], 5.0), ([20.0, 16.0], 7.0), ([0.2, 31.0], 8.0), ([12.0, 5.5], 2.0)] {
+        for (centre, radius) in
+            [([10.0, 9.0], 6.0), ([15.3, 15.8], 5.0), ([20.0, 16.0], 7.0), ([0.2, 31.0], 8.0), ([12.0, 5.5], 2.0)]
+        {
             pool.set.reset(pool.gpu, &pool.field);
             pool.run(0, &[(0, Impulse::new(centre, radius, 1.0))]);
             let state = pool.state();
