@@ -77,8 +77,8 @@ fn compare(wall: &Wall, expected: &Layers, stamps: &[Stamp]) -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
     for index in (0..relief.len()).filter(|index| !unsure(*index)) {
         worst.0 = worst.0.max((f64::from(relief[index]) - expected.relief[index]).abs());
-        for channel in 0..2 {
-            worst.1 = worst.1.max((material[index][channel] - expected.material[index][channel]).abs());
+        for (actual, expected) in material[index].iter().zip(&expected.material[index]) {
+            worst.1 = worst.1.max((actual - expected).abs());
         }
     }
     worst

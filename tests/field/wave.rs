@@ -464,8 +464,7 @@ fn rounded_obstacles_stand_where_they_should() {
     scene.obstacles = vec![Obstacle { centre: [0.5, 0.5], half_extent_metres: [10.0, 10.0], corner_metres: 10.0, top: 1.0 }];
     let free = |scene: &Wave| {
         let mask = Mask::of_scene(scene, size, [100.0, 50.0]);
-        let free = move |x, y| mask.is_free(x, y);
-        free
+        move |x, y| mask.is_free(x, y)
     };
     // As round as it can be: a disc of radius 10.
     let round = free(&scene);
