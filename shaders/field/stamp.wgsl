@@ -36,7 +36,7 @@ struct StampParams {
 struct StampMember {
     centre: vec2f,       // texels from the tile's first one
     radius: f32,         // texels
-    stamp: u32,
+    disc: u32,           // in `stamps`
 }
 
 struct StampRecord {
@@ -109,7 +109,7 @@ fn stamp_press(
             continue;
         }
         covered |= inside;
-        let stamp = stamps[member.stamp];
+        let stamp = stamps[member.disc];
         let s = stamp_irregular(stamp, offset_x, offset_y, squared, 1.0 / (member.radius * member.radius));
         let profile = stamp_profile(stamp.profile, s);
         height = select(height, stamp_blend(stamp, height, profile), inside);

@@ -84,7 +84,7 @@ struct WaveImpulse {
 struct WaveMember {
     centre: vec2f,             // texels from the tile's first one
     radius: f32,               // texels
-    impulse: u32,
+    disc: u32,                 // in `impulses`
 }
 
 struct WaveTile {
@@ -124,7 +124,7 @@ fn wave_splash(
     var sum = 0.0;
     for (var i = tile.first; i < tile.first + tile.count; i++) {
         let member = members[i];
-        let impulse = impulses[member.impulse];
+        let impulse = impulses[member.disc];
         let offset = (vec2f(local.xy) - member.centre) / member.radius;
         let s = dot(offset, offset);
         let w = max(0.0, 1.0 - s);

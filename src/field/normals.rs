@@ -8,6 +8,9 @@ use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
+/// Bytes a texel by design: height in, normal out.
+pub const TEXEL_BYTES: u64 = 12;
+
 /// Uniforms of one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -21,7 +24,7 @@ pub struct NormalsParams {
     /// 1 where the field wraps, 0 where it clamps.
     pub wrap: u32,
     /// Zero.
-    pub pad: [u32; 3],
+    pub pad: u32,
 }
 
 /// Derives unit normals from heights.
@@ -95,7 +98,7 @@ impl Normals {
                 slope_per_height,
                 size: set.size,
                 wrap: u32::from(set.addressing == Addressing::Wrap),
-                pad: [0; 3],
+                pad: 0,
             })
             .collect();
         set.params.write(recorder.gpu, &params);

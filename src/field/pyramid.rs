@@ -13,6 +13,9 @@ use crate::gpu::texture::mip_level_count;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
+/// Bytes a texel by design: height in, every level out, and every level but the last in again: 4 + 5⅓ + 1⅓ and a little.
+pub const TEXEL_BYTES: u64 = 11;
+
 /// Uniforms of one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -26,7 +29,7 @@ pub struct PyramidParams {
     /// 1 where the field wraps, 0 where it clamps.
     pub wrap: u32,
     /// Zero.
-    pub pad: [u32; 3],
+    pub pad: u32,
 }
 
 /// Rebuilds the pyramid.
@@ -133,9 +136,7 @@ fn dispatches(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> Vec<(
             regions.dedup();
         }
         dispatches.extend(
-            regions
-                .iter()
-                .map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: [0; 3] })),
+            regions.iter().map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: 0 })),
         );
         source_size = size;
     }

@@ -335,7 +335,10 @@ fn four_thousand_stamps_cost_at_most_two_wave_steps() {
                     waves.record(recorder, &mut pool, 2, &[]).expect("no impulses");
                     wall.stamps.record(recorder, &mut wall.set, &discs).expect("they fit");
                 });
-                let time = |name: &str| passes.iter().find(|pass| pass.name == name).expect("it was recorded").milliseconds;
+                let time = |name: &str| {
+                    let pass = passes.iter().find(|pass| pass.name == name).expect("it was recorded");
+                    pass.milliseconds.expect("the adapter has timestamps")
+                };
                 time("stamp") / time("wave")
             })
             .collect();

@@ -46,3 +46,12 @@ pub const STAMP_VOLUME: f64 = 1e-3;
 
 /// 4,096 stamps of radius 8 in steps of the wave at 1024²: the project's budget.
 pub const STAMP_BUDGET_STEPS: f64 = 2.0;
+
+/// Precision that a lattice position has at the least, cells.
+pub const LATTICE_FLOOR: f64 = 1e-4;
+
+/// Precision of lattice positions, cells, where the largest coordinate that the ray reaches is `largest`: eight roundings of f32
+/// there, and no less than [`LATTICE_FLOOR`].
+pub fn lattice_bound(largest: f64) -> f64 {
+    LATTICE_FLOOR.max(8.0 * 2f64.powi(-24) * largest)
+}
