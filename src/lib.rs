@@ -50,5 +50,6 @@
 
 pub mod camera;
 pub mod gpu;
+pub mod modes;
 pub mod scene;
 pub mod surface;

@@ -21,7 +21,9 @@ pub struct Preference {
 #[derive(Debug, thiserror::Error)]
 pub enum AdapterError {
     /// No adapter at all.
-    #[error("no usable graphics adapter was found; install a Vulkan driver (Debian: `apt install libvulkan1 mesa-vulkan-drivers`)")]
+    #[error(
+        "no usable graphics adapter was found; install a Vulkan driver (Debian: `apt install libvulkan1 mesa-vulkan-drivers`)"
+    )]
     None,
     /// None of this name.
     #[error("no graphics adapter matches {wanted}; there is: {found}")]
@@ -54,7 +56,8 @@ pub const OPTIONAL_FEATURES: wgpu::Features = wgpu::Features::FLOAT32_FILTERABLE
 
 /// Adapter, backend and driver in one line.
 pub fn describe(info: &wgpu::AdapterInfo) -> String {
-    let driver = [info.driver.as_str(), info.driver_info.as_str()].iter().filter(|part| !part.is_empty()).copied().collect::<Vec<_>>();
+    let driver =
+        [info.driver.as_str(), info.driver_info.as_str()].iter().filter(|part| !part.is_empty()).copied().collect::<Vec<_>>();
     let driver = if driver.is_empty() { "unnamed driver".to_owned() } else { driver.join(" ") };
     format!("{} ({}, {}, {driver})", info.name, info.backend, kind(info.device_type))
 }

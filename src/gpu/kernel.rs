@@ -45,9 +45,8 @@ impl BindingLayout {
                 count: None,
             })
             .collect();
-        let layout = gpu
-            .device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries });
+        let layout =
+            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries });
         Self { layout, label: label.to_owned() }
     }
 

@@ -17,7 +17,9 @@ pub struct Readback {
 
 /// Why bytes did not arrive.
 #[derive(Debug, thiserror::Error)]
-#[error("the GPU's memory could not be read back ({0}); the device may have been lost: run it again, or choose another with --adapter")]
+#[error(
+    "the GPU's memory could not be read back ({0}); the device may have been lost: run it again, or choose another with --adapter"
+)]
 pub struct ReadbackError(String);
 
 impl Readback {

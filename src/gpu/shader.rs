@@ -121,12 +121,12 @@ impl Composition {
             let line = error.location(&self.source).map_or(1, |location| location.line_number);
             self.error(line, error.emit_to_string(&self.source))
         })?;
-        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::default()).validate(&module).map_err(
-            |error| {
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::default())
+            .validate(&module)
+            .map_err(|error| {
                 let line = error.location(&self.source).map_or(1, |location| location.line_number);
                 self.error(line, error.emit_to_string(&self.source))
-            },
-        )?;
+            })?;
         Ok(module)
     }
 

@@ -1,0 +1,3 @@
+//! The modes, from outside.
+
+mod panel;
