@@ -49,6 +49,7 @@
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
 pub mod camera;
+pub mod field;
 pub mod gpu;
 pub mod modes;
 pub mod scene;

@@ -19,6 +19,9 @@ macro_rules! embed {
 /// The parts that the binary carries, by name: the path under `shaders/` without its ending.
 pub const EMBEDDED: &[(&str, &str)] = embed! {
     "common/region"
+    "field/compose"
+    "field/normals"
+    "field/pyramid"
 };
 
 /// Why WGSL did not become a module. The message keeps naga's annotated source.

@@ -1,0 +1,52 @@
+// The height field, as everything that traces it reads it.
+//
+//   height        r32float         1 = reference surface, 0 = deepest; texel centres at integer lattice positions
+//   pyramid       r32float, mips   upper bound of the bilinear surface over a node
+//   normal_map    rgba16float      unit normal in field space
+//   material_map  r32uint          unorm8 ×4: soot, bare, post, 0
+//
+// Composed after common/view.wgsl.
+
+@group(1) @binding(0) var height: texture_2d<f32>;
+@group(1) @binding(1) var pyramid: texture_2d<f32>;
+@group(1) @binding(2) var normal_map: texture_2d<f32>;
+@group(1) @binding(3) var material_map: texture_2d<u32>;
+
+// The texel that an unbounded coordinate means, an axis.
+fn address(texel: vec2i) -> vec2i {
+    let size = vec2i(view.field_size);
+    if view.wrap == 0u {
+        return clamp(texel, vec2i(0), size - 1);
+    }
+    let remainder = texel % size;
+    return select(remainder, remainder + size, remainder < vec2i(0));
+}
+
+fn load_height(texel: vec2i) -> f32 {
+    return textureLoad(height, address(texel), 0).r;
+}
+
+// The four corners of a cell: (x, y), (x+1, y), (x, y+1), (x+1, y+1).
+fn load_corners(cell: vec2i) -> vec4f {
+    let low = address(cell);
+    let high = address(cell + 1);
+    return vec4f(
+        textureLoad(height, low, 0).r,
+        textureLoad(height, vec2i(high.x, low.y), 0).r,
+        textureLoad(height, vec2i(low.x, high.y), 0).r,
+        textureLoad(height, high, 0).r,
+    );
+}
+
+// The surface at a lattice position, in full precision: hardware filters have about 8 bits of fraction.
+fn load_surface(lattice: vec2f) -> f32 {
+    let cell = floor(lattice);
+    let z = load_corners(vec2i(cell));
+    let f = lattice - cell;
+    return mix(mix(z.x, z.y, f.x), mix(z.z, z.w, f.x), f.y);
+}
+
+// Where a lattice position lies in the texture.
+fn uv_of(lattice: vec2f) -> vec2f {
+    return (lattice + 0.5) / vec2f(view.field_size);
+}

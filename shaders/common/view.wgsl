@@ -1,0 +1,54 @@
+// The frame's uniform: what is seen, how it is traced, how it is lit. Its Rust twin is surface::view::View.
+
+// A linear form of the pixel, split so that cancellation costs nothing: with x and y multiples of ½ the products and sums of
+// `exact` are free of rounding, in whatever order a compiler takes them, and `rest` is smaller by some 2²².
+struct LinearForm {
+    exact: vec4f, // coefficients of x, y, 1
+    rest: vec4f,
+}
+
+struct View {
+    // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
+    // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
+    lattice_x: LinearForm,
+    lattice_y: LinearForm,
+    travel_x: LinearForm,
+    travel_y: LinearForm,
+    denominator: LinearForm,
+
+    field_size: vec2u,           // texels
+    wrap: u32,                   // 1 where the field wraps, 0 where it clamps
+    step_cap: u32,               // nodes that a ray may visit
+    plane_size_metres: vec2f,
+    depth_metres: f32,
+    nearest: f32,                // largest denominator of a point that is not too near
+
+    pom_samples_min: f32,
+    pom_samples_max: f32,
+    shadow_samples: f32,
+    shadow_strength: f32,
+
+    light_in_field: vec2f,       // lattice travel of a light ray while it climbs by a height of 1
+    light_is_up: f32,            // 1 where the light is above the plane, else 0
+    time_seconds: f32,
+
+    eye_world: vec3f,
+    specular: f32,
+    light_world: vec3f,          // unit vector toward the light
+    shininess: f32,
+    light_radiance: vec3f,       // that a white surface facing the light has
+    wave_amplitude: f32,         // height that a wave of displacement 1 adds
+    sky: vec3f,                  // radiance from overhead
+    texel_metres: f32,
+    ground: vec3f,               // radiance from below
+    shows: u32,                  // what the picture shows: see surface/shade.wgsl
+    tint: vec3f,
+    rest_height: f32,            // height of the undisturbed surface: the water line
+
+    image_size: vec2u,           // of the traced picture, pixels
+    supersampling: u32,          // traced pixels along each side of a shown one
+    first_row: u32,              // of the band that channels are written for
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var bilinear: sampler;

@@ -1,0 +1,29 @@
+// Brick: running bond, each brick of its own firing, mortar between, pale dust where a shot broke it open.
+//
+// The layout is that of the base `bricks` (src/field/base.rs), which owns the constants.
+
+override BRICK_LENGTH: f32; // metres, its joint included
+override BRICK_HEIGHT: f32;
+override BRICK_JOINT: f32;
+
+fn matter_at(point: SurfacePoint) -> Matter {
+    let stamped = stamped_matter(point.lattice);
+    let metres = plane_metres(point.lattice);
+    let course = floor(metres.y / BRICK_HEIGHT);
+    let along = metres.x / BRICK_LENGTH + 0.5 * (course - 2.0 * floor(course / 2.0));
+    let brick = vec2i(vec2f(floor(along), course));
+    let inside = vec2f(along - floor(along), metres.y / BRICK_HEIGHT - course);
+    let from_edge = (0.5 - abs(inside - 0.5)) * vec2f(BRICK_LENGTH, BRICK_HEIGHT) - 0.5 * BRICK_JOINT;
+
+    let firing = hash_cell(brick, 11u);
+    let grain = fractal_noise(metres * 160.0, 5u);
+    let stain = fractal_noise(metres * 9.0, 23u);
+    let clay = mix(vec3f(0.28, 0.085, 0.050), vec3f(0.50, 0.195, 0.105), firing);
+    // One brick in nine was fired too hot.
+    let burnt = step(0.89, hash_cell(brick, 12u));
+    let face = mix(clay, vec3f(0.115, 0.070, 0.065), 0.75 * burnt) * mix(0.72, 1.18, grain) * mix(0.82, 1.08, stain);
+    let mortar = vec3f(0.40, 0.375, 0.335) * mix(0.80, 1.05, grain);
+    let is_brick = smoothstep(-0.0012, 0.0012, min(from_edge.x, from_edge.y) + 0.0022 * (grain - 0.5));
+    let broken = mix(vec3f(0.56, 0.50, 0.44), vec3f(0.66, 0.30, 0.175), is_brick) * mix(0.85, 1.15, grain);
+    return sooty(mix(mix(mortar, face, is_brick), broken, stamped.g), stamped.r);
+}

@@ -1,0 +1,41 @@
+// Channels: what the picture is made of, as exact numbers, from the same rays through the same functions.
+//
+//   channels  storage, 48 bytes a pixel  write  a band of rows of the picture
+
+struct Channels {
+    position: vec3f,  // world, on the ray
+    steps: f32,       // −1 where the pixel shows no surface
+    normal: vec3f,    // world, as shaded
+    height: f32,      // of the field there
+    uv: vec2f,        // not wrapped
+    visibility: f32,
+    lod: f32,
+}
+
+override WORKGROUP_X: u32;
+override WORKGROUP_Y: u32;
+
+@group(2) @binding(0) var<storage, read_write> channels: array<Channels>;
+
+@compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
+fn write_channels(@builtin(global_invocation_id) id: vec3u) {
+    let index = id.y * view.image_size.x + id.x;
+    if id.x >= view.image_size.x || index >= arrayLength(&channels) {
+        return;
+    }
+    let pixel = pixel_ray(vec2f(id.xy + vec2u(0u, view.first_row)) + 0.5);
+    if !shows_plane(pixel) {
+        channels[index] = Channels(vec3f(0.0), -1.0, vec3f(0.0), 0.0, vec2f(0.0), 0.0, 0.0);
+        return;
+    }
+    let shaded = shade(pixel.ray);
+    channels[index] = Channels(
+        world_of(shaded.hit.lattice, shaded.hit.height),
+        f32(shaded.hit.steps),
+        shaded.normal_world,
+        shaded.height,
+        uv_of(shaded.hit.lattice),
+        shaded.visibility,
+        0.0,
+    );
+}

@@ -1,0 +1,43 @@
+// What an albedo is asked, and what it answers.
+
+struct SurfacePoint {
+    lattice: vec2f,
+    world: vec3f,
+    height: f32,          // of the field
+    normal_world: vec3f,
+    toward_eye: vec3f,    // unit, world
+    visibility: f32,      // share of the light that arrives
+}
+
+struct Matter {
+    albedo: vec3f,    // linear
+    specular: f32,    // strength of the highlight
+    shininess: f32,   // its exponent
+    glow: vec3f,      // radiance besides what the light model adds: reflection, what shows through
+}
+
+// What stamps left at a lattice position: soot, bare, post, 0, each 0 to 1, bilinear.
+fn stamped_matter(lattice: vec2f) -> vec4f {
+    let cell = vec2i(floor(lattice));
+    let f = fract(lattice);
+    let low = address(cell);
+    let high = address(cell + 1);
+    let north = mix(stamped_texel(low), stamped_texel(vec2i(high.x, low.y)), f.x);
+    let south = mix(stamped_texel(vec2i(low.x, high.y)), stamped_texel(high), f.x);
+    return mix(north, south, f.y);
+}
+
+fn stamped_texel(texel: vec2i) -> vec4f {
+    return unpack4x8unorm(textureLoad(material_map, texel, 0).r);
+}
+
+// Metres along u and v from the upper left corner of the plane.
+fn plane_metres(lattice: vec2f) -> vec2f {
+    return (lattice + 0.5) * view.texel_metres;
+}
+
+// The scene's material with the given colour, blackened by soot.
+fn sooty(colour: vec3f, soot: f32) -> Matter {
+    let left = 1.0 - soot;
+    return Matter(colour * view.tint * mix(0.08, 1.0, left * left), view.specular * left, view.shininess, vec3f(0.0));
+}

@@ -1,0 +1,45 @@
+// From the pixel to its ray in field space. Composed after common/view.wgsl and surface/ray.wgsl; built by src/surface/ray_map.rs.
+
+struct PixelRay {
+    ray: Ray,
+    denominator: f32, // eye height over distance along the view axis: grows downward from 0 at the horizon
+}
+
+fn ray_map_evaluate(form: LinearForm, pixel: vec3f) -> f32 {
+    return dot(form.exact.xyz, pixel) + dot(form.rest.xyz, pixel);
+}
+
+// The ray through a point of the picture, in pixels from its upper left corner: pixel centres lie at ½.
+fn pixel_ray(position: vec2f) -> PixelRay {
+    let pixel = vec3f(position, 1.0);
+    let denominator = ray_map_evaluate(view.denominator, pixel);
+    let lattice = vec2f(ray_map_evaluate(view.lattice_x, pixel), ray_map_evaluate(view.lattice_y, pixel)) / denominator;
+    let travel = vec2f(ray_map_evaluate(view.travel_x, pixel), ray_map_evaluate(view.travel_y, pixel)) / denominator;
+    return PixelRay(Ray(lattice, travel, 1.0, -1.0), denominator);
+}
+
+// Whether the pixel looks down upon the plane's own plane, beyond the near distance.
+fn ray_map_looks_down(denominator: f32) -> bool {
+    return denominator > 0.0 && denominator < view.nearest;
+}
+
+// Whether the pixel's centre shows the plane.
+fn shows_plane(pixel: PixelRay) -> bool {
+    let inside = all(pixel.ray.lattice >= vec2f(-0.5)) && all(pixel.ray.lattice <= vec2f(view.field_size) - 0.5);
+    return inside && ray_map_looks_down(pixel.denominator);
+}
+
+// How much of the pixel shows the plane, 0 to 1, by the distance of its centre from the plane's borders in pixels.
+fn plane_coverage(pixel: PixelRay) -> f32 {
+    if !ray_map_looks_down(pixel.denominator) {
+        return 0.0;
+    }
+    // The gradient of a quotient of two linear forms.
+    let slope = view.denominator.exact.xy;
+    let per_pixel = vec2f(
+        length(view.lattice_x.exact.xy - pixel.ray.lattice.x * slope),
+        length(view.lattice_y.exact.xy - pixel.ray.lattice.y * slope),
+    ) / pixel.denominator;
+    let inside = min(pixel.ray.lattice + 0.5, vec2f(view.field_size) - 0.5 - pixel.ray.lattice) / per_pixel;
+    return clamp(min(inside.x, inside.y) + 0.5, 0.0, 1.0);
+}

@@ -1,0 +1,96 @@
+// What a point of the surface looks like: ambient, diffuse and specular light (Blinn–Phong, as [POM] §4 and [Zink] have it).
+//
+// Composed after a trace, a shadow and an albedo.
+
+// What the picture shows.
+const SHOW_PICTURE: u32 = 0u;
+const SHOW_HEIGHT: u32 = 1u;
+const SHOW_NORMAL: u32 = 2u;
+const SHOW_VISIBILITY: u32 = 3u;
+const SHOW_STEPS: u32 = 4u;
+
+struct Shaded {
+    hit: Hit,
+    height: f32,        // of the field at the hit's lattice position
+    normal_world: vec3f,
+    visibility: f32,    // share of the light that arrives; 0 where the surface faces away from it
+    radiance: vec3f,
+}
+
+fn world_of(lattice: vec2f, height: f32) -> vec3f {
+    let plane = (uv_of(lattice) - 0.5) * view.plane_size_metres;
+    return vec3f(plane.x, (height - 1.0) * view.depth_metres, plane.y);
+}
+
+// The normal at a lattice position: field space is u right, v down, out; the world's axes are x, z, y.
+fn normal_at(lattice: vec2f) -> vec3f {
+    let normal = normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz);
+    return normal.xzy;
+}
+
+// Share of the light that reaches a point of the surface.
+fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
+    if view.light_is_up == 0.0 || dot(normal_world, view.light_world) <= 0.0 {
+        return 0.0;
+    }
+    return shadow(Ray(lattice, view.light_in_field, height, 1.0));
+}
+
+// How open the sky is above a point, from the horizon in eight directions at two distances: what lies higher hides some of it.
+fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
+    let per_texel = view.depth_metres / view.texel_metres;
+    var hidden = 0.0;
+    for (var i = 0; i < 8; i++) {
+        let angle = 0.7853982 * f32(i) + 0.39;
+        let direction = vec2f(cos(angle), sin(angle));
+        let near = (sample_height(lattice + 4.0 * direction) - height) * per_texel / 4.0;
+        let far = (sample_height(lattice + 14.0 * direction) - height) * per_texel / 14.0;
+        let slope = max(max(near, far), 0.0);
+        // The sine of the horizon's elevation.
+        hidden += slope * inverseSqrt(1.0 + slope * slope);
+    }
+    return 1.0 - hidden / 8.0;
+}
+
+fn shade(ray: Ray) -> Shaded {
+    let hit = trace(ray);
+    let height = load_surface(hit.lattice);
+    let normal = normal_at(hit.lattice);
+    let lit = visibility_at(hit.lattice, height, normal);
+
+    let position = world_of(hit.lattice, hit.height);
+    let toward_eye = normalize(view.eye_world - position);
+    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, toward_eye, lit));
+    let halfway = normalize(toward_eye + view.light_world);
+    let diffuse = max(dot(normal, view.light_world), 0.0);
+    // Normalised, so that a tighter highlight is a brighter one.
+    let highlight = matter.specular * (matter.shininess + 8.0) / 25.0 * pow(max(dot(normal, halfway), 0.0), matter.shininess);
+    let ambient = mix(view.ground, view.sky, 0.5 + 0.5 * normal.y) * sky_visibility(hit.lattice, height);
+    let direct = view.light_radiance * lit * diffuse;
+    let radiance = matter.albedo * (ambient + direct) + direct * highlight + matter.glow;
+    return Shaded(hit, height, normal, lit, radiance);
+}
+
+// A colour for a number between 0 and 1: black, violet, orange, pale yellow, ever brighter.
+fn heat(value: f32) -> vec3f {
+    let x = clamp(value, 0.0, 1.0);
+    return vec3f(
+        smoothstep(0.05, 0.62, x),
+        0.9 * smoothstep(0.38, 1.0, x),
+        0.45 * smoothstep(0.0, 0.28, x) * (1.0 - smoothstep(0.34, 0.66, x)) + 0.62 * smoothstep(0.72, 1.0, x),
+    );
+}
+
+// The radiance of the picture or of the view that was chosen instead.
+fn shown(shaded: Shaded) -> vec3f {
+    switch view.shows {
+        case SHOW_HEIGHT: { return vec3f(shaded.height); }
+        case SHOW_NORMAL: { return shaded.normal_world.xzy * vec3f(0.5, -0.5, 0.5) + 0.5; }
+        case SHOW_VISIBILITY: { return vec3f(shaded.visibility); }
+        case SHOW_STEPS: { return heat(f32(shaded.hit.steps) / 64.0); }
+        default: {
+            // A ray that gave up is never silently a hit.
+            return select(shaded.radiance, vec3f(4.0, 0.0, 4.0), shaded.hit.status == CAPPED);
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Pyramid: upper bounds of the bilinear surface over ever larger nodes ([PDM] §3.1, made exact).
+//!
+//! [PDM] takes the bound over texels, which suits a piecewise-constant field. The bilinear surface in a cell depends on its four
+//! corners, so level 0 is, for each *cell*, the maximum of those: bounds are then exact at every level. Upper levels are the
+//! maximum over their children; levels are mips of floor sizes, and the last node of a row or column takes the remainder.
+//!
+//! Reads [`Height`](super::Height), writes [`Pyramid`](super::Pyramid) in the regions given. 4 bytes in and 5⅓ out a texel, 1⅓ of them
+//! read once more. Shader: `shaders/field/pyramid.wgsl`. Specification: [`crate::reference::pyramid`].
+
+use super::{Field, Region};
+use crate::gpu::kernel::workgroups;
+use crate::gpu::texture::mip_level_count;
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, ShaderError, Timer, UniformSlots};
+use crate::scene::Addressing;
+
+/// Uniforms of one dispatch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PyramidParams {
+    /// The nodes to bound.
+    pub region: Region,
+    /// Width and height of the level that is read.
+    pub source_size: [u32; 2],
+    /// Width and height of the level that is written.
+    pub size: [u32; 2],
+    /// 1 where the field wraps, 0 where it clamps.
+    pub wrap: u32,
+    /// Zero.
+    pub pad: [u32; 3],
+}
+
+/// Rebuilds the pyramid.
+pub struct Pyramid {
+    cells: Kernel,
+    parents: Kernel,
+    layout: BindingLayout,
+}
+
+/// The bindings of one field.
+pub struct PyramidSet {
+    params: UniformSlots<PyramidParams>,
+    /// For each level, what reads the one below it (for level 0, the heights).
+    groups: Vec<wgpu::BindGroup>,
+    size: [u32; 2],
+    addressing: Addressing,
+}
+
+impl Pyramid {
+    /// A row of texels is contiguous in memory.
+    pub const WORKGROUP: [u32; 2] = [16, 8];
+
+    /// Regions that one frame may rebuild separately.
+    pub const MAX_REGIONS: u32 = 64;
+
+    /// Builds the pipelines.
+    ///
+    /// # Errors
+    ///
+    /// The shader does not compile.
+    pub fn new(gpu: &Gpu) -> Result<Self, ShaderError> {
+        let layout = BindingLayout::new(
+            gpu,
+            "pyramid",
+            wgpu::ShaderStages::COMPUTE,
+            &[
+                Binding::UniformSlot,
+                Binding::Float(false),
+                Binding::Storage(wgpu::TextureFormat::R32Float, wgpu::StorageTextureAccess::WriteOnly),
+            ],
+        );
+        let kernel = |entry_point| {
+            Kernel::new(
+                gpu,
+                "pyramid",
+                &["common/region", "field/pyramid"],
+                entry_point,
+                &[("WORKGROUP_X", f64::from(Self::WORKGROUP[0])), ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1]))],
+                &[None, Some(&layout)],
+            )
+        };
+        let (cells, parents) = (kernel("bound_cells")?, kernel("bound_parents")?);
+        Ok(Self { cells, parents, layout })
+    }
+
+    /// Binds a field.
+    pub fn bind(&self, gpu: &Gpu, field: &Field) -> PyramidSet {
+        let levels = mip_level_count(field.size);
+        let params = UniformSlots::new(gpu, "pyramid", levels * Self::MAX_REGIONS);
+        let groups = (0..levels as usize)
+            .map(|level| {
+                let source = if level == 0 { &field.height.view } else { &field.pyramid.levels[level - 1] };
+                self.layout.bind(
+                    gpu,
+                    &[
+                        params.binding(),
+                        wgpu::BindingResource::TextureView(source),
+                        wgpu::BindingResource::TextureView(&field.pyramid.levels[level]),
+                    ],
+                )
+            })
+            .collect();
+        PyramidSet { params, groups, size: field.size, addressing: field.addressing }
+    }
+
+    /// Rebuilds every level over the nodes that the cells in `cells` touch.
+    pub fn record(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        timer: &Timer,
+        set: &PyramidSet,
+        cells: &[Region],
+    ) {
+        let dispatches = dispatches(set.size, set.addressing, cells);
+        let params: Vec<_> = dispatches.iter().map(|(_, params)| *params).collect();
+        set.params.write(gpu, &params);
+        timer.compute(encoder, "pyramid", |pass| {
+            for (slot, (level, params)) in (0..).zip(&dispatches) {
+                let kernel = if *level == 0 { &self.cells } else { &self.parents };
+                let [x, y] = workgroups(params.region.extent, Self::WORKGROUP);
+                pass.set_pipeline(&kernel.pipeline);
+                pass.set_bind_group(1, &set.groups[*level], &[set.params.offset(slot)]);
+                pass.dispatch_workgroups(x, y, 1);
+            }
+        });
+    }
+}
+
+/// Level and parameters of each dispatch, finest level first.
+fn dispatches(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> Vec<(usize, PyramidParams)> {
+    let wrap = u32::from(addressing == Addressing::Wrap);
+    let mut regions = cells.to_vec();
+    let mut source_size = size;
+    let mut dispatches = Vec::new();
+    for level in 0..mip_level_count(size) {
+        let size = [(size[0] >> level).max(1), (size[1] >> level).max(1)];
+        if level > 0 {
+            regions = regions.iter().map(|region| region.parents(size)).collect();
+            // Far up the regions meet; each node needs its bound once.
+            regions.dedup();
+        }
+        dispatches
+            .extend(regions.iter().map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: [0; 3] })));
+        source_size = size;
+    }
+    dispatches
+}
