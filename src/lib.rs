@@ -50,7 +50,9 @@
 
 pub mod camera;
 pub mod field;
+pub mod frame;
 pub mod gpu;
 pub mod modes;
+pub mod present;
 pub mod scene;
 pub mod surface;

@@ -97,6 +97,8 @@ pub enum Base {
     },
     /// A wall of bricks in running bond, the same that the `brick` albedo colours.
     Bricks,
+    /// Rounded stones, the same that the `cobble` albedo colours.
+    Cobbles,
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain,
     /// An image's heights.

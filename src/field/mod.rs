@@ -16,6 +16,7 @@
 //!
 //! Together 34⅓ bytes a texel. A scene without waves has the wave's rows at 1×1. The bound on the sum is 40.
 
+pub mod base;
 pub mod compose;
 pub mod normals;
 pub mod pyramid;

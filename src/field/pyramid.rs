@@ -103,14 +103,7 @@ impl Pyramid {
     }
 
     /// Rebuilds every level over the nodes that the cells in `cells` touch.
-    pub fn record(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        timer: &Timer,
-        set: &PyramidSet,
-        cells: &[Region],
-    ) {
+    pub fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, timer: &Timer, set: &PyramidSet, cells: &[Region]) {
         let dispatches = dispatches(set.size, set.addressing, cells);
         let params: Vec<_> = dispatches.iter().map(|(_, params)| *params).collect();
         set.params.write(gpu, &params);
@@ -139,8 +132,11 @@ fn dispatches(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> Vec<(
             // Far up the regions meet; each node needs its bound once.
             regions.dedup();
         }
-        dispatches
-            .extend(regions.iter().map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: [0; 3] })));
+        dispatches.extend(
+            regions
+                .iter()
+                .map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: [0; 3] })),
+        );
         source_size = size;
     }
     dispatches

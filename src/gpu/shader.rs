@@ -18,10 +18,34 @@ macro_rules! embed {
 
 /// The parts that the binary carries, by name: the path under `shaders/` without its ending.
 pub const EMBEDDED: &[(&str, &str)] = embed! {
+    "common/field"
+    "common/height_filtered"
+    "common/height_loaded"
+    "common/noise"
     "common/region"
+    "common/view"
     "field/compose"
     "field/normals"
     "field/pyramid"
+    "present"
+    "surface/albedo_brick"
+    "surface/albedo_cobble"
+    "surface/albedo_plain"
+    "surface/albedo_water"
+    "surface/channels"
+    "surface/matter"
+    "surface/probe"
+    "surface/ray"
+    "surface/ray_map"
+    "surface/shade"
+    "surface/shadow_hard"
+    "surface/shadow_none"
+    "surface/shadow_pom_soft"
+    "surface/surface"
+    "surface/trace_exact"
+    "surface/trace_normal"
+    "surface/trace_pom"
+    "surface/traversal"
 };
 
 /// Why WGSL did not become a module. The message keeps naga's annotated source.

@@ -1,5 +1,9 @@
-//! The ways to run a frame: they differ in who owns the clock and where the picture goes, and in nothing else.
+//! How the frame is run: live, to files, to numbers. The modes differ in who owns the clock and where the picture goes, and in
+//! nothing else.
 
+mod gui;
 pub mod input;
+pub mod live;
 pub mod panel;
 pub mod readings;
+mod screen;

@@ -53,7 +53,7 @@ choices! {
 }
 
 choices! {
-    /// How much of the light a point sees: a file that defines `fn shadow(ray: Ray) -> Visibility`.
+    /// How much of the light a point sees: a file that defines `fn shadow(ray: Ray) -> f32`, the visibility.
     Shadow {
         /// Nothing blocks the light.
         None = "none", "shadow_none", "None";
@@ -65,7 +65,7 @@ choices! {
 }
 
 choices! {
-    /// The colour of the undisturbed surface: a file that defines `fn albedo(point: AlbedoPoint) -> AlbedoSample`.
+    /// The colour of the undisturbed surface: a file that defines `fn matter_at(point: SurfacePoint) -> Matter`.
     Albedo {
         /// One colour, and another where the slope is steep.
         Plain = "plain", "albedo_plain", "Plain";
@@ -75,5 +75,38 @@ choices! {
         Cobble = "cobble", "albedo_cobble", "Cobble";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
+    }
+}
+
+/// What the picture shows: the final image, or one of the numbers behind it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Shows {
+    /// The lit surface.
+    #[default]
+    Picture = 0,
+    /// The height field's value.
+    Height = 1,
+    /// The normal as shaded.
+    Normal = 2,
+    /// The share of the light that arrives.
+    Visibility = 3,
+    /// The samples or nodes of the view ray, as heat: 64 and more are the brightest.
+    Steps = 4,
+}
+
+impl Shows {
+    /// Every view, in the order in which a key cycles them.
+    pub const ALL: &'static [Self] = &[Self::Picture, Self::Height, Self::Normal, Self::Visibility, Self::Steps];
+
+    /// What the panel calls it.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Picture => "Picture",
+            Self::Height => "Height",
+            Self::Normal => "Normals",
+            Self::Visibility => "Visibility of the light",
+            Self::Steps => "Steps a pixel",
+        }
     }
 }

@@ -1,5 +1,65 @@
 //! How the field is seen: techniques, shadows, shading.
 
+pub mod channels;
 pub mod choice;
+pub mod probe;
+pub mod ray_map;
+pub mod surface;
+pub mod view;
 
-pub use choice::{Albedo, Shadow, Technique};
+pub use channels::Channels;
+pub use choice::{Albedo, Shadow, Shows, Technique};
+pub use probe::Probe;
+pub use surface::Surface;
+pub use view::{View, ViewSet};
+
+use crate::field;
+use crate::gpu::{Binding, BindingLayout, Gpu};
+
+/// The WGSL parts that everything that traces is composed of, before its entry points.
+pub(crate) fn parts(gpu: &Gpu, technique: Technique, shadow: Shadow, albedo: Albedo) -> Vec<String> {
+    let sampled = if gpu.filters_r32float() { "common/height_filtered" } else { "common/height_loaded" };
+    let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade"];
+    let mut parts: Vec<String> =
+        ["common/view", "common/noise", "surface/ray", "common/field", sampled, "surface/ray_map", "surface/traversal"]
+            .map(str::to_owned)
+            .to_vec();
+    parts.extend(stems.map(|stem| format!("surface/{stem}")));
+    parts
+}
+
+/// The `override`s that Rust owns in a composition of [`parts`], besides those of its entry points.
+pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
+    match albedo {
+        Albedo::Brick => vec![
+            ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
+            ("BRICK_HEIGHT", f64::from(field::base::BRICK_METRES[1])),
+            ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
+        ],
+        Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
+        Albedo::Plain | Albedo::Water => Vec::new(),
+    }
+}
+
+/// Bind group layout 1 of everything that traces: the field.
+pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
+    BindingLayout::new(
+        gpu,
+        "field",
+        wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        &[Binding::Float(gpu.filters_r32float()), Binding::Float(false), Binding::Float(true), Binding::Uint],
+    )
+}
+
+/// Binds a field to [`field_layout`].
+pub(crate) fn bind_field(gpu: &Gpu, layout: &BindingLayout, field: &field::Field) -> wgpu::BindGroup {
+    layout.bind(
+        gpu,
+        &[
+            wgpu::BindingResource::TextureView(&field.height.view),
+            wgpu::BindingResource::TextureView(&field.pyramid.view),
+            wgpu::BindingResource::TextureView(&field.normal.view),
+            wgpu::BindingResource::TextureView(&field.material.view),
+        ],
+    )
+}

@@ -1,0 +1,156 @@
+//! The frame's uniform and sampler: bind group 0.
+
+use crate::camera::Camera;
+use crate::field::base;
+use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
+use crate::scene::{Addressing, Scene};
+
+use super::Shows;
+use super::ray_map::{LinearForm, RayMap, Target};
+
+/// What is seen, how it is traced, how it is lit. Twin of the WGSL struct in `shaders/common/view.wgsl`, where each field's meaning
+/// and unit stand.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "the WGSL twin documents the fields, and one place is enough")]
+pub struct View {
+    pub lattice_x: LinearForm,
+    pub lattice_y: LinearForm,
+    pub travel_x: LinearForm,
+    pub travel_y: LinearForm,
+    pub denominator: LinearForm,
+    pub field_size: [u32; 2],
+    pub wrap: u32,
+    pub step_cap: u32,
+    pub plane_size_metres: [f32; 2],
+    pub depth_metres: f32,
+    pub nearest: f32,
+    pub pom_samples_min: f32,
+    pub pom_samples_max: f32,
+    pub shadow_samples: f32,
+    pub shadow_strength: f32,
+    pub light_in_field: [f32; 2],
+    pub light_is_up: f32,
+    pub time_seconds: f32,
+    pub eye_world: [f32; 3],
+    pub specular: f32,
+    pub light_world: [f32; 3],
+    pub shininess: f32,
+    pub light_radiance: [f32; 3],
+    pub wave_amplitude: f32,
+    pub sky: [f32; 3],
+    pub texel_metres: f32,
+    pub ground: [f32; 3],
+    pub shows: u32,
+    pub tint: [f32; 3],
+    pub rest_height: f32,
+    pub image_size: [u32; 2],
+    pub supersampling: u32,
+    pub first_row: u32,
+}
+
+/// Extent of the scene's plane along x and z, metres: texels are square.
+pub fn plane_size_metres(scene: &Scene) -> [f64; 2] {
+    let width = f64::from(scene.plane.width_metres);
+    [width, width * f64::from(scene.field.size[1]) / f64::from(scene.field.size[0])]
+}
+
+impl View {
+    /// What `camera` sees of `scene` at a time, in a picture of `image_size` traced pixels.
+    pub fn new(scene: &Scene, camera: &Camera, time_seconds: f64, image_size: [u32; 2], shows: Shows) -> Self {
+        let plane_size = plane_size_metres(scene);
+        let depth_metres = f64::from(scene.plane.depth_metres);
+        let rays = RayMap::new(
+            camera,
+            image_size,
+            &Target { field_size: scene.field.size, plane_size_metres: plane_size, depth_metres },
+        );
+        let light = light_direction(scene, time_seconds);
+        let texel_metres = plane_size[0] / f64::from(scene.field.size[0]);
+        let light_is_up = light.y > 1e-4;
+        let climb = if light_is_up { depth_metres / light.y / texel_metres } else { 0.0 };
+        Self {
+            lattice_x: rays.lattice[0],
+            lattice_y: rays.lattice[1],
+            travel_x: rays.travel[0],
+            travel_y: rays.travel[1],
+            denominator: rays.denominator,
+            field_size: scene.field.size,
+            wrap: u32::from(scene.field.addressing == Addressing::Wrap),
+            step_cap: scene.trace.step_cap,
+            plane_size_metres: plane_size.map(|metres| metres as f32),
+            depth_metres: scene.plane.depth_metres,
+            nearest: rays.nearest,
+            pom_samples_min: scene.trace.pom_samples_min as f32,
+            pom_samples_max: scene.trace.pom_samples_max as f32,
+            shadow_samples: scene.trace.shadow_samples as f32,
+            shadow_strength: scene.trace.shadow_strength,
+            light_in_field: [(light.x * climb) as f32, (light.z * climb) as f32],
+            light_is_up: f32::from(u8::from(light_is_up)),
+            time_seconds: time_seconds as f32,
+            eye_world: camera.eye().as_vec3().to_array(),
+            specular: scene.material.specular,
+            light_world: light.as_vec3().to_array(),
+            shininess: scene.material.shininess,
+            light_radiance: scene.light.colour.map(|colour| colour * scene.light.intensity),
+            wave_amplitude: scene.wave.as_ref().map_or(0.0, |wave| wave.amplitude),
+            sky: scene.light.sky,
+            texel_metres: texel_metres as f32,
+            ground: scene.light.ground,
+            shows: shows as u32,
+            tint: scene.material.tint,
+            rest_height: base::rest_height(&scene.base),
+            image_size,
+            supersampling: scene.trace.supersampling,
+            first_row: 0,
+        }
+    }
+}
+
+/// The unit direction toward the scene's light at a time, in the world.
+pub fn light_direction(scene: &Scene, time_seconds: f64) -> glam::DVec3 {
+    let light = &scene.light;
+    let turned = f64::from(light.turn_degrees_per_second) * time_seconds;
+    let azimuth = (f64::from(light.azimuth_degrees) + turned).to_radians();
+    let elevation = f64::from(light.elevation_degrees).to_radians();
+    glam::DVec3::new(elevation.cos() * azimuth.cos(), elevation.sin(), elevation.cos() * azimuth.sin())
+}
+
+/// Bind group 0: the frame's uniform and its bilinear sampler.
+pub struct ViewSet {
+    /// The uniform.
+    pub uniform: Uniform<View>,
+    /// Its bind group.
+    pub group: wgpu::BindGroup,
+}
+
+/// Bind group layout 0.
+pub fn layout(gpu: &Gpu) -> BindingLayout {
+    BindingLayout::new(
+        gpu,
+        "view",
+        wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        &[Binding::Uniform, Binding::Sampler(true)],
+    )
+}
+
+impl ViewSet {
+    /// Makes one for a field of this addressing.
+    pub fn new(gpu: &Gpu, layout: &BindingLayout, addressing: Addressing) -> Self {
+        let address_mode = match addressing {
+            Addressing::Wrap => wgpu::AddressMode::Repeat,
+            Addressing::Clamp => wgpu::AddressMode::ClampToEdge,
+        };
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("bilinear"),
+            address_mode_u: address_mode,
+            address_mode_v: address_mode,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let uniform = Uniform::new(gpu, "view");
+        let group = layout.bind(gpu, &[uniform.buffer.as_entire_binding(), wgpu::BindingResource::Sampler(&sampler)]);
+        Self { uniform, group }
+    }
+}
