@@ -7,7 +7,7 @@ use crate::field::compose::{Compose, ComposeSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
 use crate::field::{Field, Region};
-use crate::gpu::{BindingLayout, Gpu, Role, ShaderError, Texture, Timer};
+use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::surface::surface::{Radiance, SurfaceSet};
@@ -198,39 +198,40 @@ impl Frame {
 
     /// Records one frame.
     pub fn record(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, input: &FrameInput<'_>, target: &wgpu::TextureView) {
+        let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         if self.stale {
-            self.derive(gpu, encoder, &[Region::all(self.field.size)]);
-            self.stale = false;
+            self.derive(recorder, &[Region::all(self.field.size)]);
         }
-        self.show(gpu, encoder, input, target);
+        self.show(recorder, input, target);
+        self.stale = false;
     }
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
-    fn derive(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, changed: &[Region]) {
+    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
         let (size, addressing) = (self.field.size, self.field.addressing);
         // Compose relief and waves into the height field proper.
-        self.compose.record(gpu, encoder, &self.timer, &self.compose_set, changed, 0.0, 0);
+        self.compose.record(recorder, &self.compose_set, changed, 0.0, 0);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
         let sloped: Vec<_> = changed.iter().flat_map(|region| region.grown(1, 1, size, addressing)).collect();
-        self.normals.record(gpu, encoder, &self.timer, &self.normals_set, &sloped, slope_per_height(&self.scene));
+        self.normals.record(recorder, &self.normals_set, &sloped, slope_per_height(&self.scene));
         // … and its bounds, which the cells before a texel see.
         let cells: Vec<_> = changed.iter().flat_map(|region| region.grown(1, 0, size, addressing)).collect();
-        self.pyramid.record(gpu, encoder, &self.timer, &self.pyramid_set, &cells);
+        self.pyramid.record(recorder, &self.pyramid_set, &cells);
     }
 
     /// Shows the field as it stands.
-    fn show(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, input: &FrameInput<'_>, target: &wgpu::TextureView) {
+    fn show(&self, recorder: &mut Recorder<'_>, input: &FrameInput<'_>, target: &wgpu::TextureView) {
         let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) else {
             unreachable!("every change of the choice builds its surface first")
         };
         // March, shade and shadow what the camera sees.
         let traced = traced_size(&self.scene, self.image_size);
-        self.view_set.uniform.write(gpu, &View::new(&self.scene, input.camera, input.time_seconds, traced, input.shows));
-        surface.record(encoder, &self.timer, &self.view_set, surface_set, &self.radiance.view);
+        self.view_set.uniform.write(recorder.gpu, &View::new(&self.scene, input.camera, input.time_seconds, traced, input.shows));
+        surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
         // Tone-map to whatever we were given: a window or an image.
         let tone_map = input.shows == Shows::Picture;
         let supersampling = self.scene.trace.supersampling;
-        self.present.record(gpu, encoder, &self.timer, &self.present_set, supersampling, tone_map, target);
+        self.present.record(recorder, &self.present_set, supersampling, tone_map, target);
     }
 }
 

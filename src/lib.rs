@@ -54,5 +54,6 @@ pub mod frame;
 pub mod gpu;
 pub mod modes;
 pub mod present;
+pub mod reference;
 pub mod scene;
 pub mod surface;

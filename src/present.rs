@@ -1,6 +1,6 @@
 //! Present: from radiance to what a screen or a file shows. Shader: `shaders/present.wgsl`.
 
-use crate::gpu::{Binding, BindingLayout, Gpu, ShaderError, Timer, Uniform};
+use crate::gpu::{Binding, BindingLayout, Gpu, Recorder, ShaderError, Uniform};
 
 /// Uniforms of the pass.
 #[repr(C)]
@@ -75,20 +75,19 @@ impl Present {
     }
 
     /// Records one render pass over the whole of `target`.
-    #[expect(clippy::too_many_arguments, reason = "three of them are the frame's: device, encoder, timer")]
     pub fn record(
         &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        timer: &Timer,
+        recorder: &mut Recorder<'_>,
         set: &PresentSet,
         supersampling: u32,
         tone_map: bool,
         target: &wgpu::TextureView,
     ) {
-        set.params
-            .write(gpu, &PresentParams { supersampling, encode: u32::from(self.encodes), tone_map: u32::from(tone_map), pad: 0 });
-        timer.render(encoder, "present", target, |pass| {
+        set.params.write(
+            recorder.gpu,
+            &PresentParams { supersampling, encode: u32::from(self.encodes), tone_map: u32::from(tone_map), pad: 0 },
+        );
+        recorder.render("present", target, |pass| {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(1, &set.group, &[]);
             pass.draw(0..3, 0..1);

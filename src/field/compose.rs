@@ -6,7 +6,7 @@
 
 use super::{Field, Region};
 use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, ShaderError, Timer, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 
 /// Edge of a tile, texels: one workgroup, one count of clamped texels.
 pub const TILE: u32 = 16;
@@ -92,16 +92,7 @@ impl Compose {
     }
 
     /// Composes the regions, whole tiles of them. `wave` says which of the two textures holds the current state.
-    pub fn record(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        timer: &Timer,
-        set: &ComposeSet,
-        regions: &[Region],
-        amplitude: f32,
-        wave: usize,
-    ) {
+    pub fn record(&self, recorder: &mut Recorder<'_>, set: &ComposeSet, regions: &[Region], amplitude: f32, wave: usize) {
         let params: Vec<_> = regions
             .iter()
             .map(|region| ComposeParams {
@@ -111,8 +102,8 @@ impl Compose {
                 size: set.size,
             })
             .collect();
-        set.params.write(gpu, &params);
-        timer.compute(encoder, "compose", |pass| {
+        set.params.write(recorder.gpu, &params);
+        recorder.compute("compose", |pass| {
             pass.set_pipeline(&self.kernel.pipeline);
             for (slot, params) in (0..).zip(&params) {
                 let [x, y] = workgroups(params.region.extent, [TILE, TILE]);

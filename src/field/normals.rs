@@ -5,7 +5,7 @@
 
 use super::{Field, Region};
 use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, ShaderError, Timer, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
 /// Uniforms of one dispatch.
@@ -87,15 +87,7 @@ impl Normals {
     }
 
     /// Derives the regions.
-    pub fn record(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        timer: &Timer,
-        set: &NormalsSet,
-        regions: &[Region],
-        slope_per_height: [f32; 2],
-    ) {
+    pub fn record(&self, recorder: &mut Recorder<'_>, set: &NormalsSet, regions: &[Region], slope_per_height: [f32; 2]) {
         let params: Vec<_> = regions
             .iter()
             .map(|region| NormalsParams {
@@ -106,8 +98,8 @@ impl Normals {
                 pad: [0; 3],
             })
             .collect();
-        set.params.write(gpu, &params);
-        timer.compute(encoder, "normals", |pass| {
+        set.params.write(recorder.gpu, &params);
+        recorder.compute("normals", |pass| {
             pass.set_pipeline(&self.kernel.pipeline);
             for (slot, params) in (0..).zip(&params) {
                 let [x, y] = workgroups(params.region.extent, Self::WORKGROUP);

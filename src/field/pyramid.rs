@@ -10,7 +10,7 @@
 use super::{Field, Region};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::texture::mip_level_count;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, ShaderError, Timer, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
 /// Uniforms of one dispatch.
@@ -103,11 +103,11 @@ impl Pyramid {
     }
 
     /// Rebuilds every level over the nodes that the cells in `cells` touch.
-    pub fn record(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, timer: &Timer, set: &PyramidSet, cells: &[Region]) {
+    pub fn record(&self, recorder: &mut Recorder<'_>, set: &PyramidSet, cells: &[Region]) {
         let dispatches = dispatches(set.size, set.addressing, cells);
         let params: Vec<_> = dispatches.iter().map(|(_, params)| *params).collect();
-        set.params.write(gpu, &params);
-        timer.compute(encoder, "pyramid", |pass| {
+        set.params.write(recorder.gpu, &params);
+        recorder.compute("pyramid", |pass| {
             for (slot, (level, params)) in (0..).zip(&dispatches) {
                 let kernel = if *level == 0 { &self.cells } else { &self.parents };
                 let [x, y] = workgroups(params.region.extent, Self::WORKGROUP);

@@ -17,7 +17,7 @@ pub use kernel::{Binding, BindingLayout, Kernel};
 pub use readback::Readback;
 pub use shader::{Library, ShaderError};
 pub use texture::{Contract, Role, Texture};
-pub use timer::{PassTime, Timer};
+pub use timer::{PassTime, Recorder, Timer};
 pub use uniform::{Uniform, UniformSlots};
 
 /// A device, its queue, and what it can do.

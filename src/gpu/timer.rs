@@ -11,6 +11,51 @@ pub struct Timer {
     timed: bool,
 }
 
+/// What passes record into: an encoder, and the timer that names and times them.
+pub struct Recorder<'a> {
+    /// The device.
+    pub gpu: &'a Gpu,
+    /// The encoder of this submission.
+    pub encoder: &'a mut wgpu::CommandEncoder,
+    /// The timer.
+    pub timer: &'a Timer,
+}
+
+impl Recorder<'_> {
+    /// Runs `record` in a compute pass of this name.
+    pub fn compute(&mut self, name: &str, record: impl FnOnce(&mut wgpu::ComputePass<'_>)) {
+        let query = self.timer.profiler.begin_pass_query(name, self.encoder);
+        {
+            let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(name),
+                timestamp_writes: query.compute_pass_timestamp_writes(),
+            });
+            record(&mut pass);
+        }
+        self.timer.profiler.end_query(self.encoder, query);
+    }
+
+    /// Runs `record` in a render pass of this name, which overwrites the whole target.
+    pub fn render(&mut self, name: &str, target: &wgpu::TextureView, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+        let query = self.timer.profiler.begin_pass_query(name, self.encoder);
+        {
+            let mut pass = self.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(name),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                })],
+                timestamp_writes: query.render_pass_timestamp_writes(),
+                ..Default::default()
+            });
+            record(&mut pass);
+        }
+        self.timer.profiler.end_query(self.encoder, query);
+    }
+}
+
 /// The GPU time of one pass in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTime {
@@ -35,45 +80,6 @@ impl Timer {
     /// Whether times will come.
     pub fn is_timed(&self) -> bool {
         self.timed
-    }
-
-    /// Runs `record` in a compute pass of this name.
-    pub fn compute(&self, encoder: &mut wgpu::CommandEncoder, name: &str, record: impl FnOnce(&mut wgpu::ComputePass<'_>)) {
-        let query = self.profiler.begin_pass_query(name, encoder);
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(name),
-                timestamp_writes: query.compute_pass_timestamp_writes(),
-            });
-            record(&mut pass);
-        }
-        self.profiler.end_query(encoder, query);
-    }
-
-    /// Runs `record` in a render pass of this name, which overwrites the whole target.
-    pub fn render(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        name: &str,
-        target: &wgpu::TextureView,
-        record: impl FnOnce(&mut wgpu::RenderPass<'_>),
-    ) {
-        let query = self.profiler.begin_pass_query(name, encoder);
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(name),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-                })],
-                timestamp_writes: query.render_pass_timestamp_writes(),
-                ..Default::default()
-            });
-            record(&mut pass);
-        }
-        self.profiler.end_query(encoder, query);
     }
 
     /// Records the resolution of this frame's queries: the last thing in the frame's encoder.

@@ -5,7 +5,7 @@
 use super::{Albedo, Shadow, Technique, View, ViewSet, bind_field, constants, field_layout, parts, view};
 use crate::field::Field;
 use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError, Timer};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, Recorder, ShaderError, Timer};
 
 /// What one pixel shows.
 #[repr(C)]
@@ -86,7 +86,7 @@ impl Channels {
         let field_group = bind_field(gpu, &self.field_layout, field);
         let output = self.output_layout.bind(gpu, &[buffer.as_entire_binding()]);
         let mut encoder = gpu.encoder("channels");
-        timer.compute(&mut encoder, "channels", |pass| {
+        Recorder { gpu, encoder: &mut encoder, timer }.compute("channels", |pass| {
             let [x, y] = workgroups([view.image_size[0], rows], Self::WORKGROUP);
             pass.set_pipeline(&self.kernel.pipeline);
             pass.set_bind_group(0, &view_set.group, &[]);

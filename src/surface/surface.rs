@@ -2,7 +2,7 @@
 
 use super::{Albedo, Shadow, Technique, ViewSet, bind_field, constants, field_layout, parts};
 use crate::field::Field;
-use crate::gpu::{BindingLayout, Contract, Gpu, Role, ShaderError, Timer};
+use crate::gpu::{BindingLayout, Contract, Gpu, Recorder, Role, ShaderError};
 
 /// The picture as it is traced.
 #[derive(Clone, Copy, Debug)]
@@ -86,15 +86,8 @@ impl Surface {
     }
 
     /// Records one render pass over the whole of `radiance`.
-    pub fn record(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        timer: &Timer,
-        view: &ViewSet,
-        set: &SurfaceSet,
-        radiance: &wgpu::TextureView,
-    ) {
-        timer.render(encoder, "surface", radiance, |pass| {
+    pub fn record(&self, recorder: &mut Recorder<'_>, view: &ViewSet, set: &SurfaceSet, radiance: &wgpu::TextureView) {
+        recorder.render("surface", radiance, |pass| {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &view.group, &[]);
             pass.set_bind_group(1, &set.group, &[]);
