@@ -72,6 +72,14 @@ fn turn_about(eye: DVec3, target: DVec3, radians: f64) -> DVec3 {
     DVec3::new(target.x + arm.x * cos - arm.z * sin, eye.y, target.z + arm.x * sin + arm.z * cos)
 }
 
+/// By how much an eye moves, for each metre of distance, so that what lies at that distance moves by `drag` in the picture: picture
+/// heights, right and down.
+fn shift(camera: &Camera, drag: DVec2) -> DVec3 {
+    let half_height = (0.5 * camera.vertical_fov_radians).tan();
+    let (right, up) = (camera.world_from_view.x_axis.truncate(), camera.world_from_view.y_axis.truncate());
+    2.0 * half_height * (up * drag.y - right * drag.x)
+}
+
 /// The matrix of unit axes: `right` level and perpendicular to `back`.
 fn world_from_view(eye: DVec3, right: DVec3, back: DVec3) -> DMat4 {
     DMat4::from_cols(right.extend(0.0), back.cross(right).extend(0.0), back.extend(0.0), eye.extend(1.0))
@@ -132,6 +140,7 @@ pub struct Rig {
     scene: scene::Camera,
     motion: Motion,
     fly_metres_per_second: f64,
+    aside: DVec2,
 }
 
 impl Rig {
@@ -146,7 +155,7 @@ impl Rig {
 
     /// Follows the camera of a scene.
     pub fn new(scene: scene::Camera) -> Self {
-        Self { scene, motion: Motion::Scene, fly_metres_per_second: 0.5 }
+        Self { scene, motion: Motion::Scene, fly_metres_per_second: 0.5, aside: DVec2::ZERO }
     }
 
     /// Back to the scene's own camera.
@@ -174,8 +183,29 @@ impl Rig {
         self.scene.vertical_fov_degrees = degrees;
     }
 
+    /// Keeps the target of an orbit aside from the middle of the picture, so that it is in the middle of what a panel leaves free:
+    /// in picture heights, right and down.
+    pub fn set_aside(&mut self, aside: DVec2) {
+        self.aside = aside;
+    }
+
     /// The camera, `time_seconds` after the scene's start.
     pub fn camera(&self, time_seconds: f64) -> Camera {
+        let mut camera = self.centred(time_seconds);
+        let distance = match self.motion {
+            Motion::Scene => camera.eye().distance(DVec3::from(self.scene.target)),
+            Motion::Orbit { distance, .. } => distance,
+            // What lies in the middle of a flight is where the eye goes: there is no target to keep aside.
+            Motion::Fly { .. } => return camera,
+        };
+        if self.aside != DVec2::ZERO {
+            camera.world_from_view.w_axis += (distance * shift(&camera, self.aside)).extend(0.0);
+        }
+        camera
+    }
+
+    /// The camera, with its target in the middle of the picture whatever is aside.
+    pub fn centred(&self, time_seconds: f64) -> Camera {
         let (eye, heading) = match self.motion {
             Motion::Scene => return Camera::at(&self.scene, time_seconds),
             Motion::Orbit { target, distance, heading } => (target + distance * heading.direction(), heading),
@@ -191,7 +221,7 @@ impl Rig {
     /// Takes hold, at `time_seconds`: an orbit that starts where the scene's camera is.
     fn take_hold(&mut self, time_seconds: f64) {
         if self.motion == Motion::Scene {
-            let camera = self.camera(time_seconds);
+            let camera = self.centred(time_seconds);
             let target = DVec3::from(self.scene.target);
             let distance = camera.eye().distance(target).max(Self::DISTANCE_METRES[0]);
             self.motion = Motion::Orbit { target, distance, heading: Heading::behind(&camera) };
@@ -218,10 +248,7 @@ impl Rig {
     /// down.
     pub fn pan(&mut self, drag: DVec2, time_seconds: f64) {
         self.take_hold(time_seconds);
-        let camera = self.camera(time_seconds);
-        let half_height = (0.5 * camera.vertical_fov_radians).tan();
-        let (right, up) = (camera.world_from_view.x_axis.truncate(), camera.world_from_view.y_axis.truncate());
-        let shift = 2.0 * half_height * (up * drag.y - right * drag.x);
+        let shift = shift(&self.centred(time_seconds), drag);
         match &mut self.motion {
             Motion::Scene => {}
             Motion::Orbit { target, distance, .. } => {
@@ -252,13 +279,15 @@ impl Rig {
     /// far away as the plane is along that line, or a metre where it does not meet it.
     pub fn toggle_fly(&mut self, time_seconds: f64) {
         self.take_hold(time_seconds);
+        let camera = self.camera(time_seconds);
         self.motion = match self.motion {
             Motion::Scene => Motion::Scene,
-            Motion::Orbit { target, distance, heading } => Motion::Fly { eye: target + distance * heading.direction(), heading },
+            Motion::Orbit { heading, .. } => Motion::Fly { eye: camera.eye(), heading },
             Motion::Fly { eye, heading } => {
                 let to_plane = eye.y / heading.direction().y;
                 let distance = if to_plane > Self::DISTANCE_METRES[0] && to_plane < 5.0 { to_plane } else { 1.0 };
-                Motion::Orbit { target: eye - distance * heading.direction(), distance, heading }
+                let centred = eye - distance * shift(&camera, self.aside);
+                Motion::Orbit { target: centred - distance * heading.direction(), distance, heading }
             }
         };
     }
@@ -358,6 +387,27 @@ mod tests {
         let height = 2.0 * -target.z * (0.5 * camera.vertical_fov_radians).tan();
         assert!((target.x / height - 0.25).abs() < NEAR && (target.y / height - 0.125).abs() < NEAR, "{target}");
         assert!(camera.forward().abs_diff_eq(before.forward(), NEAR));
+    }
+
+    #[test]
+    fn keeps_its_target_aside_through_orbit_and_flight() {
+        let mut rig = Rig::new(tilted());
+        rig.set_aside(DVec2::new(0.2, 0.0));
+        let camera = rig.camera(0.0);
+        let target = camera.world_from_view.inverse().transform_point3(DVec3::from(tilted().target));
+        let height = 2.0 * -target.z * (0.5 * camera.vertical_fov_radians).tan();
+        assert!((target.x / height - 0.2).abs() < NEAR && target.y.abs() < NEAR, "{target}");
+        for _ in 0..2 {
+            rig.toggle_fly(0.0);
+            assert_close(&rig.camera(0.0), &camera);
+        }
+        assert_eq!(Rig::new(tilted()).camera(0.0), rig_centred(&tilted()));
+    }
+
+    fn rig_centred(scene: &scene::Camera) -> Camera {
+        let mut rig = Rig::new(scene.clone());
+        rig.set_aside(DVec2::ONE);
+        rig.centred(0.0)
     }
 
     #[test]

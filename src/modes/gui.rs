@@ -87,6 +87,12 @@ impl Gui {
         output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |viewport| viewport.repaint_delay)
     }
 
+    /// How wide the panel at the left is, pixels.
+    pub fn covered_pixels(&self) -> f64 {
+        let points = f64::from(self.uncovered.left().max(0.0));
+        if points.is_finite() { points * f64::from(self.pixels_per_point) } else { 0.0 }
+    }
+
     /// Records the picture of the last [`Gui::run`], over what `target` of `size` pixels holds.
     pub fn record(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, size: [u32; 2], target: &wgpu::TextureView) {
         let screen = ScreenDescriptor { size_in_pixels: size, pixels_per_point: self.pixels_per_point };

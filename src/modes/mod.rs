@@ -5,5 +5,7 @@ mod gui;
 pub mod input;
 pub mod live;
 pub mod panel;
+pub mod pick;
 pub mod readings;
 mod screen;
+pub mod session;

@@ -4,13 +4,15 @@
 
 mod widgets;
 
+use std::time::Duration;
+
 use egui::{Align, Align2, Color32, Layout, RichText, Ui, vec2};
 
 use self::widgets::{Control, choice, colour, group, value};
 use super::input::{Action, GESTURES, SHORTCUTS};
 use super::readings::{self, Readings};
 use crate::scene::{Boundary, Rain, Scene};
-use crate::surface::{Albedo, Shadow, Technique};
+use crate::surface::{Albedo, Shadow, Shows, Technique};
 
 /// What the left mouse button does to the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +71,8 @@ pub struct Panel {
     pub original: Scene,
     /// The scenes that can be chosen: name and description.
     pub scenes: Vec<(String, String)>,
+    /// What the picture shows.
+    pub shows: Shows,
     /// The left mouse button.
     pub brush: Brush,
     /// Whether the simulation stands.
@@ -91,6 +95,7 @@ impl Panel {
             original: scene.clone(),
             scene,
             scenes,
+            shows: Shows::Picture,
             paused: false,
             flies: false,
             shown: true,
@@ -109,6 +114,11 @@ impl Panel {
     /// Says something for a while.
     pub fn say(&mut self, message: impl Into<String>) {
         self.message = Some((message.into(), 4.0));
+    }
+
+    /// When to draw it anew without an event, if egui itself would wait for `delay`.
+    pub fn stir(&self, delay: Duration) -> Duration {
+        self.message.as_ref().map_or(delay, |&(_, left)| delay.min(Duration::from_secs_f64(left.max(0.0))))
     }
 
     /// Lets `seconds` pass for the message.
@@ -208,8 +218,11 @@ impl Panel {
     fn surface_group(&mut self, ui: &mut Ui) {
         let (plane, plane_was) = (&mut self.scene.plane, &self.original.plane);
         let (trace, was) = (&mut self.scene.trace, &self.original.trace);
-        let changed = trace != was || plane != plane_was;
+        let shows = &mut self.shows;
+        let changed = trace != was || plane != plane_was || *shows != Shows::Picture;
         let reset = group(ui, "Surface", true, Some(changed), |ui| {
+            const VIEW: &str = "The picture, or one of the numbers behind it (V)";
+            choice(ui, "View", VIEW, shows, Shows::Picture, Shows::ALL, Shows::label);
             const TECHNIQUE: &str = "How the ray of a pixel finds the surface (T)";
             choice(ui, "Technique", TECHNIQUE, &mut trace.technique, was.technique, Technique::ALL, Technique::label);
             choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
@@ -244,6 +257,7 @@ impl Panel {
         if reset {
             *trace = was.clone();
             *plane = plane_was.clone();
+            *shows = Shows::Picture;
         }
     }
 

@@ -91,8 +91,13 @@ impl Screen {
         [self.config.width, self.config.height]
     }
 
+    /// Notes that the window's size may have changed.
+    pub fn outdate(&mut self) {
+        self.stale = true;
+    }
+
     /// Takes over the window's size. Call it only while no picture of it is alive.
-    pub fn fit(&mut self, gpu: &Gpu) {
+    fn fit(&mut self, gpu: &Gpu) {
         let size = self.window.inner_size();
         if size.width == 0 || size.height == 0 {
             self.configured = false;
