@@ -49,6 +49,7 @@
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
 pub mod camera;
+pub mod clock;
 pub mod field;
 pub mod frame;
 pub mod gpu;
@@ -56,4 +57,5 @@ pub mod modes;
 pub mod present;
 pub mod reference;
 pub mod scene;
+pub mod stroke;
 pub mod surface;

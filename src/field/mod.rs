@@ -8,7 +8,7 @@
 //! |---|---|---|---|---|---|
 //! | relief | r32float | 4 | base height with every stamp pressed into it, unclamped | stamp | compose |
 //! | material | r32uint | 4 | four unorm8: soot, bare (freshly broken), post, 0 | stamp | surface |
-//! | obstacles | r8uint | 1 | 1 where waves are blocked | image upload | wave |
+//! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | height | r32float | 4 | the height field, 0 to 1 | compose | normals, pyramid, surface |
 //! | normal | rgba16float | 8 | unit normal in field space (u right, v down, out); w unused | normals | surface |
@@ -17,16 +17,21 @@
 //! Together 34⅓ bytes a texel. A scene without waves has the wave's rows at 1×1. The bound on the sum is 40.
 
 pub mod base;
+pub mod bins;
 pub mod compose;
+pub mod dirty;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
+pub mod stamp;
+pub mod wave;
 
 use wgpu::{TextureFormat, TextureUsages};
 
 use crate::gpu::{Contract, Gpu, Role, Texture};
 use crate::scene::Addressing;
 
+pub use dirty::Dirty;
 pub use region::Region;
 
 /// How a layer is used that kernels write in place and tests read back.
@@ -55,8 +60,8 @@ roles! {
     Relief = "relief", R32Float, mips false, LAYER, "height, unclamped", from "stamp", to "compose";
     /// What stamps leave on the material.
     Material = "material", R32Uint, mips false, LAYER, "unorm8 ×4: soot, bare, post, 0", from "stamp", to "surface";
-    /// Where waves are blocked.
-    Obstacles = "obstacles", R8Uint, mips false, TextureUsages::TEXTURE_BINDING.union(TextureUsages::COPY_DST), "1 where blocked", from "upload", to "wave";
+    /// What a texel of the waves is free to do.
+    WaveMask = "wave mask", R8Uint, mips false, TextureUsages::TEXTURE_BINDING.union(TextureUsages::COPY_DST), "bits of wave::Mask", from "upload", to "wave";
     /// The state of the waves at one step.
     WaveState = "wave", R32Float, mips false, LAYER, "displacement, amplitudes", from "wave", to "wave, compose";
     /// The height field.
@@ -71,7 +76,7 @@ roles! {
 pub const CONTRACT: &[(Contract, u32)] = &[
     (Relief::CONTRACT, 1),
     (Material::CONTRACT, 1),
-    (Obstacles::CONTRACT, 1),
+    (WaveMask::CONTRACT, 1),
     (WaveState::CONTRACT, 2),
     (Height::CONTRACT, 1),
     (Normal::CONTRACT, 1),
@@ -93,8 +98,8 @@ pub struct Field {
     pub relief: Texture<Relief>,
     /// What stamps leave on the material.
     pub material: Texture<Material>,
-    /// Where waves are blocked; 1×1 without waves.
-    pub obstacles: Texture<Obstacles>,
+    /// What a texel of the waves is free to do; 1×1 without waves.
+    pub wave_mask: Texture<WaveMask>,
     /// The waves, two steps of them; 1×1 without waves.
     pub wave: [Texture<WaveState>; 2],
     /// The height field.
@@ -116,7 +121,7 @@ impl Field {
             addressing,
             relief: Texture::new(gpu, size),
             material: Texture::new(gpu, size),
-            obstacles: Texture::new(gpu, wave_size),
+            wave_mask: Texture::new(gpu, wave_size),
             wave: [Texture::new(gpu, wave_size), Texture::new(gpu, wave_size)],
             height: Texture::new(gpu, size),
             normal: Texture::new(gpu, size),
@@ -134,7 +139,7 @@ impl Field {
     pub fn memory_bytes(&self) -> u64 {
         self.relief.memory_bytes()
             + self.material.memory_bytes()
-            + self.obstacles.memory_bytes()
+            + self.wave_mask.memory_bytes()
             + self.wave.iter().map(Texture::memory_bytes).sum::<u64>()
             + self.height.memory_bytes()
             + self.normal.memory_bytes()

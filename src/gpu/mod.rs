@@ -4,6 +4,7 @@
 
 pub mod adapter;
 pub mod kernel;
+pub mod list;
 pub mod readback;
 pub mod shader;
 pub mod texture;
@@ -14,6 +15,7 @@ use std::sync::{Arc, Mutex};
 
 pub use adapter::{AdapterError, Preference};
 pub use kernel::{Binding, BindingLayout, Kernel};
+pub use list::List;
 pub use readback::Readback;
 pub use shader::{Library, ShaderError};
 pub use texture::{Contract, Role, Texture};

@@ -27,6 +27,8 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "field/compose"
     "field/normals"
     "field/pyramid"
+    "field/stamp"
+    "field/wave"
     "present"
     "surface/albedo_brick"
     "surface/albedo_cobble"

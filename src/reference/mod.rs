@@ -9,10 +9,12 @@ pub mod pyramid;
 pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
+pub mod stamp;
 pub mod trace_exact;
 pub mod trace_normal;
 pub mod trace_pom;
 pub mod traversal;
+pub mod wave;
 
 pub use crate::scene::Addressing;
 

@@ -1,0 +1,233 @@
+//! Binning discs into square tiles, on the CPU: which tiles they touch, and in which order each tile must gather them.
+//!
+//! A counting sort by tile, stable: within a tile the discs keep the order of their submission, so that ordered blends are
+//! deterministic. Where the field wraps, a disc over a border is gathered once for each image of the field that it covers.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::{Dirty, Region};
+
+/// A disc upon the field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    /// Its centre, lattice coordinates.
+    pub centre: [f32; 2],
+    /// Its radius, texels. A disc whose radius is not positive touches nothing, nor does one that is not finite, or so far off that
+    /// an f32 no longer tells one texel from the next.
+    pub radius: f32,
+}
+
+/// A disc, as one image of the field sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Which of the discs.
+    pub disc: u32,
+    /// What to add to a texel of the field to come to this image, texels. Kept apart from the centre, which would lose precision.
+    pub shift: [i32; 2],
+}
+
+/// A tile that discs touch, and where its members stand.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct Tile {
+    /// Its column and row, in units of tiles.
+    pub tile: [u32; 2],
+    /// The first of its members in [`Bins::members`].
+    pub first: u32,
+    /// How many they are.
+    pub count: u32,
+}
+
+/// Why discs could not be binned.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BinError {
+    /// The lists would not fit the adapter's buffers.
+    #[error(
+        "{discs} discs touch about {entries} tiles of the field in all, more than the {limit} that a buffer of this adapter \
+         holds; press fewer or smaller ones"
+    )]
+    TooMany {
+        /// Number of discs.
+        discs: usize,
+        /// Number of pairs of disc and tile.
+        entries: u64,
+        /// The most that fit.
+        limit: u64,
+    },
+}
+
+/// The tiles that some discs touch. Its vectors keep their capacity: a steady state allocates nothing.
+#[derive(Debug, Default)]
+pub struct Bins {
+    /// The discs' images, in the order of submission.
+    pub images: Vec<Image>,
+    /// The touched tiles, row by row within a batch.
+    pub tiles: Vec<Tile>,
+    /// Indices into `images`, tile by tile.
+    pub members: Vec<u32>,
+    counts: Vec<u32>,
+    pairs: Vec<(u32, u32)>,
+}
+
+/// What one call of [`Bins::add`] appended.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Batch {
+    /// The first of its tiles.
+    pub first_tile: u32,
+    /// The number of its tiles.
+    pub tile_count: u32,
+    /// The texels that its discs may cover.
+    pub dirty: Dirty,
+}
+
+/// Texels by which a disc is taken larger than it is: the shader decides in f32 whether a texel lies within, and no texel that it
+/// finds within may be missed here. 2⁻⁸ is sixteen times the rounding of a lattice coordinate of 16,384.
+const SLACK: f64 = 1.0 / 256.0;
+
+/// The field that discs fall upon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ground {
+    /// Its size, texels.
+    pub size: [u32; 2],
+    /// Whether it repeats beyond its border.
+    pub wrap: bool,
+    /// Side of a tile, texels.
+    pub tile_texels: u32,
+}
+
+impl Bins {
+    /// Forgets everything but the capacity.
+    pub fn clear(&mut self) {
+        self.images.clear();
+        self.tiles.clear();
+        self.members.clear();
+    }
+
+    /// Appends a batch of discs: its tiles list its discs alone. `limit` is the most members that all batches together may have.
+    pub fn add(&mut self, ground: Ground, discs: impl Iterator<Item = Disc>, limit: u64) -> Result<Batch, BinError> {
+        let columns = ground.size[0].div_ceil(ground.tile_texels);
+        let rows = ground.size[1].div_ceil(ground.tile_texels);
+        let first_tile = self.tiles.len() as u32;
+        let mut dirty = Dirty::Nothing;
+
+        self.pairs.clear();
+        let mut discs_seen = 0;
+        let mut excess = 0;
+        for (index, disc) in discs.enumerate() {
+            discs_seen = index + 1;
+            let room = limit.saturating_sub((self.members.len() + self.pairs.len()) as u64);
+            let estimate = tile_estimate(ground, disc);
+            if excess > 0 || estimate > room as f64 {
+                // Go on counting, for the message, without listing. The cast saturates.
+                excess += estimate as u64;
+                continue;
+            }
+            self.add_disc(ground, index as u32, disc, &mut dirty);
+        }
+        if excess > 0 {
+            let entries = (self.members.len() + self.pairs.len()) as u64 + excess;
+            return Err(BinError::TooMany { discs: discs_seen, entries, limit });
+        }
+
+        // The counting sort: how many, then where each tile's members begin, then the members.
+        self.counts.clear();
+        self.counts.resize((columns * rows) as usize, 0);
+        for (tile, _) in &self.pairs {
+            self.counts[*tile as usize] += 1;
+        }
+        let mut first = self.members.len() as u32;
+        for (index, count) in self.counts.iter_mut().enumerate() {
+            if *count > 0 {
+                let tile = [index as u32 % columns, index as u32 / columns];
+                self.tiles.push(Tile { tile, first, count: *count });
+                // From here on the count is the place of the tile's next member.
+                (*count, first) = (first, first + *count);
+            }
+        }
+        self.members.resize(first as usize, 0);
+        for (tile, image) in &self.pairs {
+            let place = &mut self.counts[*tile as usize];
+            self.members[*place as usize] = *image;
+            *place += 1;
+        }
+        Ok(Batch { first_tile, tile_count: self.tiles.len() as u32 - first_tile, dirty })
+    }
+
+    /// Lists the images of one disc and the tiles that each touches.
+    fn add_disc(&mut self, ground: Ground, index: u32, disc: Disc, dirty: &mut Dirty) {
+        let Some([xs, ys]) = images(ground, disc) else { return };
+        let radius = f64::from(disc.radius) + SLACK;
+        let tile = f64::from(ground.tile_texels);
+        let columns = ground.size[0].div_ceil(ground.tile_texels);
+        // The casts hold: the caller has bounded the number of images, and `images` their distance.
+        for y in ys.0 as i64..=ys.1 as i64 {
+            for x in xs.0 as i64..=xs.1 as i64 {
+                let shift = [x * i64::from(ground.size[0]), y * i64::from(ground.size[1])];
+                let centre = [0, 1].map(|axis| f64::from(disc.centre[axis]) - shift[axis] as f64);
+                // The texels that may lie within: never empty, since `images` lists only images that the disc's box meets.
+                let first = [0, 1].map(|axis| (centre[axis] - radius).ceil().max(0.0));
+                let last = [0, 1].map(|axis| (centre[axis] + radius).floor().min(f64::from(ground.size[axis] - 1)));
+                if first[0] > last[0] || first[1] > last[1] {
+                    continue;
+                }
+                let origin = first.map(|value| value as u32);
+                let extent = [0, 1].map(|axis| last[axis] as u32 - origin[axis] + 1);
+                dirty.add(Region { origin, extent }, ground.size);
+
+                let image = self.images.len() as u32;
+                self.images.push(Image { disc: index, shift: shift.map(|value| value as i32) });
+                let (tiles_first, tiles_last) = (first.map(|value| (value / tile) as u32), last.map(|value| (value / tile) as u32));
+                for row in tiles_first[1]..=tiles_last[1] {
+                    for column in tiles_first[0]..=tiles_last[0] {
+                        // The corners of the box that the disc does not reach are left out.
+                        let gap = |axis: usize, index: u32| {
+                            let low = f64::from(index) * tile;
+                            (low - centre[axis]).max(centre[axis] - (low + tile - 1.0)).max(0.0)
+                        };
+                        if gap(0, column).powi(2) + gap(1, row).powi(2) < radius * radius {
+                            self.pairs.push((row * columns + column, image));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The first and last image of the field, along x and y, that the disc's box meets. As floats: a huge disc on a small field meets
+/// more than any integer counts.
+fn images(ground: Ground, disc: Disc) -> Option<[(f64, f64); 2]> {
+    const FARTHEST: f32 = 16_777_216.0;
+    let near = disc.centre.iter().all(|value| value.abs() <= FARTHEST);
+    if !near || !disc.radius.is_finite() || disc.radius <= 0.0 {
+        return None;
+    }
+    let radius = f64::from(disc.radius) + SLACK;
+    let range = |axis: usize| {
+        let (centre, size) = (f64::from(disc.centre[axis]), f64::from(ground.size[axis]));
+        // The texels of image k stand at k·size … k·size + size − 1.
+        let first = ((centre - radius - (size - 1.0)) / size).ceil();
+        let last = ((centre + radius) / size).floor();
+        if ground.wrap { (first, last) } else { (first.max(0.0), last.min(0.0)) }
+    };
+    let ranges = [range(0), range(1)];
+    ranges.iter().all(|(first, last)| first <= last).then_some(ranges)
+}
+
+/// At least as many tiles as the disc touches, in all images together.
+fn tile_estimate(ground: Ground, disc: Disc) -> f64 {
+    let Some(ranges) = images(ground, disc) else { return 0.0 };
+    let along = |axis: usize| {
+        let (first, last) = ranges[axis];
+        let tiles = f64::from(ground.size[axis].div_ceil(ground.tile_texels));
+        let across = (2.0 * (f64::from(disc.radius) + SLACK) / f64::from(ground.tile_texels)).floor() + 2.0;
+        (last - first + 1.0) * across.min(tiles)
+    };
+    along(0) * along(1)
+}
+
+/// Workgroups, one a tile, in a grid whose sides the baseline of WebGPU allows; the last row may be longer than needed.
+pub fn tile_workgroups(tile_count: u32) -> [u32; 2] {
+    const LONGEST: u32 = 65_535;
+    [tile_count.min(LONGEST), tile_count.div_ceil(LONGEST)]
+}

@@ -1,0 +1,274 @@
+//! What a hand, a script or a stress test does to the field, as plain, seeded data.
+//!
+//! Every random stroke has a number, and its own generator made from the seed and that number: what a stroke looks like depends
+//! neither on the strokes before it nor on how frames cut time into pieces. A warm-up of W frames and then N more are W + N.
+
+use rand::rngs::Xoshiro256PlusPlus;
+use rand::{Rng, SeedableRng};
+
+use crate::clock::Tick;
+use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
+use crate::field::wave::{self, Impulse};
+use crate::scene::{Rain, Scene, Shots};
+
+/// One thing done to the field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stroke {
+    /// A stamp pressed into the relief.
+    Press(Stamp),
+    /// An impulse upon the water.
+    Splash(Impulse),
+}
+
+/// All that is done to the field in one frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Strokes {
+    /// The stamps, in order.
+    pub presses: Vec<Stamp>,
+    /// The impulses, each with the step of the frame before which it falls: 0 is the first.
+    pub splashes: Vec<(u32, Impulse)>,
+}
+
+impl Strokes {
+    /// Adds what a hand did since the last frame: a splash falls before the frame's first step, or without one while time stands.
+    pub fn push(&mut self, stroke: Stroke) {
+        match stroke {
+            Stroke::Press(stamp) => self.presses.push(stamp),
+            Stroke::Splash(impulse) => self.splashes.push((0, impulse)),
+        }
+    }
+
+    /// What the scene itself does in the frame: its rain and its shots.
+    pub fn of_scene(scene: &Scene, seed: u64, tick: &Tick) -> Self {
+        let lattice = Lattice::of_scene(scene);
+        let mut strokes = Self::default();
+        if let Some((wave, rain)) = scene.wave.as_ref().and_then(|wave| Some((wave, wave.rain.as_ref()?))) {
+            let step_seconds = wave::step_seconds(wave, lattice.texel_metres);
+            for step in 0..tick.steps {
+                let impulses = rain_in_step(rain, seed, &lattice, step_seconds, tick.first_step + u64::from(step));
+                strokes.splashes.extend(impulses.map(|impulse| (step, impulse)));
+            }
+        }
+        if let Some(shots) = &scene.shots {
+            strokes.presses.extend(shots_between(shots, seed, &lattice, tick.previous_seconds, tick.time_seconds));
+        }
+        strokes
+    }
+}
+
+/// The field's texels, as strokes see them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lattice {
+    /// Size of the field, texels.
+    pub size: [u32; 2],
+    /// Side of a texel, metres.
+    pub texel_metres: f64,
+    /// Depth of h = 0, metres.
+    pub depth_metres: f64,
+}
+
+impl Lattice {
+    /// The lattice of a scene's field.
+    pub fn of_scene(scene: &Scene) -> Self {
+        Self {
+            size: scene.field.size,
+            texel_metres: f64::from(scene.plane.width_metres) / f64::from(scene.field.size[0]),
+            depth_metres: f64::from(scene.plane.depth_metres),
+        }
+    }
+
+    /// A point of the plane in lattice coordinates.
+    pub fn at(&self, uv: [f64; 2]) -> [f32; 2] {
+        [0, 1].map(|axis| (uv[axis] * f64::from(self.size[axis]) - 0.5) as f32)
+    }
+}
+
+/// The drops that fall in one step of the wave.
+///
+/// Drop k falls at time (k + U)/rate, U uniform: as irregular as rain looks, but never later than two mean intervals after the one
+/// before. With the exponential gaps of a Poisson process some seeds would leave the water still for the first eight frames.
+pub fn rain_in_step(
+    rain: &Rain,
+    seed: u64,
+    lattice: &Lattice,
+    step_seconds: f64,
+    step: u64,
+) -> impl Iterator<Item = Impulse> + use<> {
+    // Both ends by one expression: the end of a step is the start of the next to the bit, and no drop is lost or doubled.
+    let start_of = |step: u64| step as f64 * (f64::from(rain.drops_per_second) * step_seconds);
+    let (start, end) = (start_of(step), start_of(step + 1));
+    let radius = (f64::from(rain.radius_metres) / lattice.texel_metres) as f32;
+    let (lattice, strength) = (*lattice, rain.strength);
+    let candidates = if rain.drops_per_second > 0.0 { start as u64..end as u64 + 1 } else { 0..0 };
+    candidates.filter_map(move |number| {
+        let mut random = Random::new(seed, Stream::Rain, number);
+        let time = number as f64 + random.unit();
+        (start <= time && time < end).then(|| {
+            let centre = lattice.at([random.unit(), random.unit()]);
+            // A drop dents the water; drops differ by a factor of two.
+            Impulse::new(centre, radius, -strength * random.between(0.5, 1.0) as f32)
+        })
+    })
+}
+
+/// The shots after one time and until another, both seconds: shot k is fired at (k + ½)/rate.
+pub fn shots_between(
+    shots: &Shots,
+    seed: u64,
+    lattice: &Lattice,
+    after_seconds: f64,
+    until_seconds: f64,
+) -> impl Iterator<Item = Stamp> + use<> {
+    // As the clock's: a frame that is due at a shot's very time shows it, however the product rounds.
+    let fired = |seconds: f64| (seconds * f64::from(shots.per_second) + 0.5 + 1e-9).floor().max(0.0) as u64;
+    let (shots, lattice) = (shots.clone(), *lattice);
+    (fired(after_seconds)..fired(until_seconds)).map(move |number| {
+        let mut random = Random::new(seed, Stream::Shots, number);
+        shot(&shots, &lattice, [random.unit(), random.unit()], &mut random)
+    })
+}
+
+/// One shot at a point of the plane: a crater with an irregular rim, its scorch, and bare material within.
+pub fn shot(shots: &Shots, lattice: &Lattice, uv: [f64; 2], random: &mut Random) -> Stamp {
+    let [smallest, largest] = shots.radius_metres.map(f64::from);
+    // Small ones are common: the square of a uniform number.
+    let rim_metres = smallest + (largest - smallest) * random.unit().powi(2);
+    let depth_metres = f64::from(shots.depth_metres) * rim_metres / largest;
+    Stamp {
+        centre: lattice.at(uv),
+        radius: (rim_metres / CRATER_RIM / lattice.texel_metres) as f32,
+        height: (depth_metres / lattice.depth_metres) as f32,
+        profile: Profile::Crater,
+        blend: Blend::Add,
+        irregularity: random.between(0.35, 0.65) as f32,
+        phase: random.between(0.0, std::f64::consts::TAU) as f32,
+        soot: shots.scorch,
+        bare: 1.0,
+        ..Stamp::default()
+    }
+}
+
+/// The discs that a stress test presses in a frame. Even frames press them in, odd frames lift the same ones again: the load is
+/// that of every frame, and the field neither saturates nor wears out.
+pub fn stress_discs(seed: u64, frame: u64, count: u32, radius: f32, size: [u32; 2]) -> impl Iterator<Item = Stamp> {
+    let height = if frame.is_multiple_of(2) { -0.02 } else { 0.02 };
+    (0..u64::from(count)).map(move |index| {
+        let mut random = Random::new(seed, Stream::Stress, frame / 2 * u64::from(count) + index);
+        let centre = [0, 1].map(|axis| (random.unit() * f64::from(size[axis]) - 0.5) as f32);
+        Stamp { centre, radius, height, profile: Profile::Disc, blend: Blend::Add, ..Stamp::default() }
+    })
+}
+
+/// Which sequence of random numbers: strokes of different kinds share none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// Drops.
+    Rain,
+    /// A scene's shots.
+    Shots,
+    /// A stress test's discs.
+    Stress,
+    /// What a hand does in the window.
+    Hand,
+}
+
+/// The random numbers of one stroke. Xoshiro256++ and the conversion below are fixed for ever; `rand`'s distributions are not.
+#[derive(Clone, Debug)]
+pub struct Random(Xoshiro256PlusPlus);
+
+impl Random {
+    /// The generator of one numbered stroke.
+    pub fn new(seed: u64, stream: Stream, number: u64) -> Self {
+        // `seed_from_u64` mixes its argument well, so consecutive numbers give unrelated generators; the seed goes through it once
+        // on its own, else seed 1's first stroke would be seed 0's second.
+        let mut of_stream = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let mut key = of_stream.next_u64();
+        for _ in 0..stream as u32 {
+            key = of_stream.next_u64();
+        }
+        Self(Xoshiro256PlusPlus::seed_from_u64(key.wrapping_add(number)))
+    }
+
+    /// Uniform in 0..1, 1 excluded.
+    pub fn unit(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Uniform between two bounds.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock::{Clock, Pace};
+    use crate::scene;
+
+    fn scene() -> Scene {
+        Scene {
+            wave: Some(scene::Wave { rain: Some(Rain::default()), ..scene::Wave::default() }),
+            shots: Some(Shots::default()),
+            ..Scene::default()
+        }
+    }
+
+    /// All strokes of a run, each with the number of the step before which it falls.
+    fn run(seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
+        let scene = scene();
+        let step = wave::step_seconds(scene.wave.as_ref().unwrap(), Lattice::of_scene(&scene).texel_metres);
+        let mut clock = Clock::new(Some(step));
+        let (mut presses, mut splashes) = (Vec::new(), Vec::new());
+        for _ in 0..frames {
+            let tick = clock.advance(Pace::Fixed { dt_seconds });
+            let strokes = Strokes::of_scene(&scene, seed, &tick);
+            presses.extend(strokes.presses);
+            splashes.extend(strokes.splashes.into_iter().map(|(step, impulse)| (tick.first_step + u64::from(step), impulse)));
+        }
+        (presses, splashes)
+    }
+
+    #[test]
+    fn frames_do_not_change_what_falls_and_when() {
+        // 12 s cut into frames of 1/60 s and of 1/25 s.
+        let (sixty, twenty_five) = (run(7, 1.0 / 60.0, 721), run(7, 1.0 / 25.0, 301));
+        assert_eq!(sixty, twenty_five);
+        // The last of the 288 intervals is cut by the last step that is owed.
+        assert_eq!(sixty.0.len(), 120);
+        assert!((287..=288).contains(&sixty.1.len()));
+    }
+
+    #[test]
+    fn another_seed_is_another_run() {
+        let (a, b) = (run(1, 1.0 / 60.0, 60), run(2, 1.0 / 60.0, 60));
+        assert!(a.0.iter().all(|stamp| !b.0.contains(stamp)));
+        assert!(a.1.iter().all(|(_, impulse)| b.1.iter().all(|(_, other)| impulse != other)));
+    }
+
+    #[test]
+    fn every_seed_changes_something_within_eight_frames_and_nothing_in_the_first() {
+        for seed in 0..500 {
+            let (presses, splashes) = run(seed, 1.0 / 60.0, 8);
+            assert!(!presses.is_empty() && !splashes.is_empty(), "seed {seed}");
+            let (presses, splashes) = run(seed, 1.0 / 60.0, 1);
+            assert!(presses.is_empty() && splashes.is_empty(), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn stress_lifts_what_it_pressed() {
+        let frame = |frame| stress_discs(3, frame, 100, 8.0, [256, 128]).collect::<Vec<_>>();
+        let lifted: Vec<_> = frame(1).into_iter().map(|stamp| Stamp { height: -stamp.height, ..stamp }).collect();
+        assert_eq!(frame(0), lifted);
+        assert_ne!(frame(0), frame(2));
+    }
+
+    #[test]
+    fn random_numbers_are_the_same_for_ever() {
+        // Printed once by this program; another value means that every capture of every scene changes.
+        let mut random = Random::new(42, Stream::Shots, 7);
+        let numbers = [random.unit(), random.unit(), random.between(-1.0, 1.0)];
+        assert_eq!(numbers, [0.0, 0.0, 0.0]);
+    }
+}
