@@ -176,7 +176,8 @@ impl Bins {
 
                 let image = self.images.len() as u32;
                 self.images.push(Image { disc: index, shift: shift.map(|value| value as i32) });
-                let (tiles_first, tiles_last) = (first.map(|value| (value / tile) as u32), last.map(|value| (value / tile) as u32));
+                let (tiles_first, tiles_last) =
+                    (first.map(|value| (value / tile) as u32), last.map(|value| (value / tile) as u32));
                 for row in tiles_first[1]..=tiles_last[1] {
                     for column in tiles_first[0]..=tiles_last[0] {
                         // The corners of the box that the disc does not reach are left out.

@@ -242,11 +242,7 @@ impl Stamps {
             "stamp",
             &["field/stamp"],
             "stamp_press",
-            &[
-                ("STAMP_TILE", f64::from(Self::TILE)),
-                ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM),
-                ("STAMP_LIP", CRATER_LIP),
-            ],
+            &[("STAMP_TILE", f64::from(Self::TILE)), ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM), ("STAMP_LIP", CRATER_LIP)],
             &[None, Some(&layout)],
         )?;
         Ok(Self { kernel, layout })

@@ -5,8 +5,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
 use super::Field;
+use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, UniformSlots};
 use crate::scene::{self, Boundary, Obstacle};
@@ -424,16 +424,7 @@ impl Waves {
             gpu,
             "wave splash",
             compute,
-            &[
-                Binding::Uniform,
-                Binding::Uint,
-                state,
-                state,
-                Binding::Read,
-                Binding::Read,
-                Binding::Read,
-                Binding::UniformSlot,
-            ],
+            &[Binding::Uniform, Binding::Uint, state, state, Binding::Read, Binding::Read, Binding::Read, Binding::UniformSlot],
         );
         let constants = [
             ("WAVE_STEP_X", f64::from(Self::STEP[0])),
@@ -445,9 +436,8 @@ impl Waves {
             ("WAVE_SOUTH", f64::from(Mask::SOUTH)),
             ("WAVE_FREE", f64::from(Mask::FREE)),
         ];
-        let kernel = |entry_point, layout| {
-            Kernel::new(gpu, "wave", &["field/wave"], entry_point, &constants, &[None, Some(layout)])
-        };
+        let kernel =
+            |entry_point, layout| Kernel::new(gpu, "wave", &["field/wave"], entry_point, &constants, &[None, Some(layout)]);
         let (step, splash) = (kernel("wave_step", &step_layout)?, kernel("wave_splash", &splash_layout)?);
         Ok(Self { step, splash, step_layout, splash_layout })
     }

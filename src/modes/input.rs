@@ -243,8 +243,12 @@ impl Repeat {
         // A microsecond of rounding must not cost a frame.
         let acts = self.wait_seconds <= 1e-6;
         if acts {
+            let period = 1.0 / per_second;
+            self.wait_seconds += period;
             // What a slow frame missed is not made up for: a burst would surprise.
-            self.wait_seconds = (self.wait_seconds + 1.0 / per_second).max(0.0);
+            if self.wait_seconds <= 0.0 {
+                self.wait_seconds = period;
+            }
         }
         acts
     }

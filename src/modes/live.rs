@@ -214,7 +214,8 @@ impl Open {
     fn key(&mut self, event: &KeyEvent, is_synthetic: bool) -> Option<Action> {
         let pressed = event.state == ElementState::Pressed;
         // Keys that were down when the window got the keyboard were not meant for it.
-        if is_synthetic && pressed || self.modifiers.intersects(ModifiersState::CONTROL | ModifiersState::ALT | ModifiersState::SUPER)
+        if is_synthetic && pressed
+            || self.modifiers.intersects(ModifiersState::CONTROL | ModifiersState::ALT | ModifiersState::SUPER)
         {
             return None;
         }

@@ -2,6 +2,7 @@
 //! nothing else.
 
 mod gui;
+pub mod hand;
 pub mod input;
 pub mod live;
 pub mod panel;

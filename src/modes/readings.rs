@@ -48,6 +48,11 @@ pub struct Readings {
 }
 
 impl Readings {
+    /// Nothing measured yet, on this adapter.
+    pub fn new(adapter: String, is_timed: bool) -> Self {
+        Self { adapter, is_timed, ..Self::default() }
+    }
+
     /// Notes a frame that took this long by the wall clock.
     pub fn note_frame(&mut self, seconds: f64) {
         let before = self.frame_seconds.unwrap_or(seconds);

@@ -69,9 +69,8 @@ impl Screen {
     fn new(gpu: &Gpu, window: Arc<Window>, surface: wgpu::Surface<'static>) -> Result<Self, ScreenError> {
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         // Eight bits that are stored as written: the presentation encodes for itself, and the panel's colours are made for it.
-        let plain = |format: &&wgpu::TextureFormat| {
-            matches!(format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Rgba8Unorm)
-        };
+        let plain =
+            |format: &&wgpu::TextureFormat| matches!(format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Rgba8Unorm);
         let format = formats.iter().find(plain).or(formats.first()).copied();
         let config = surface.get_default_config(&gpu.adapter, 1, 1).zip(format);
         let (config, format) = config.ok_or_else(|| ScreenError::Format(gpu.describe()))?;

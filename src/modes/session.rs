@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::hand;
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
@@ -12,7 +13,7 @@ use crate::field::{self, wave};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::Gpu;
 use crate::scene::Scene;
-use crate::stroke::Lattice;
+use crate::stroke::{Lattice, Strokes};
 use crate::surface::Technique;
 
 /// Time from frame to frame where it is fixed, and of a single step, seconds.
@@ -83,7 +84,7 @@ impl Session {
         // A script knows where the surface is in the picture, not where the panel is.
         panel.shown = pacing == Pacing::Realtime;
         let rig = Rig::new(start.scene.camera.clone());
-        let readings = Readings { adapter: gpu.describe(), is_timed: frame.timer.is_timed(), ..Readings::default() };
+        let readings = Readings::new(gpu.describe(), frame.timer.is_timed());
         let shown = (rig.camera(0.0), 0.0);
         Ok(Self {
             clock: clock_of(&start.scene),
@@ -251,19 +252,13 @@ impl Session {
 
     /// Records the next frame into `target`, `elapsed_seconds` after the one before by the wall clock. `covered` is how much of the
     /// left of the picture the panel hides, pixels: an orbit keeps its target in the middle of the rest.
-    pub fn record(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        elapsed_seconds: f64,
-        covered: f64,
-    ) {
+    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView, elapsed_seconds: f64, covered: f64) {
         self.panel.pass_time(elapsed_seconds);
         let elapsed_seconds = elapsed_seconds.min(LONGEST_FRAME_SECONDS);
         let hand_seconds = if self.pacing == Pacing::Fixed { DT_SECONDS } else { elapsed_seconds };
         self.rig.fly(self.flight.movement(), hand_seconds);
         let tick = self.tick(elapsed_seconds);
-        self.strokes(hand_seconds);
+        let strokes = self.strokes(hand_seconds);
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
         let camera = self.rig.camera(tick.time_seconds);
         self.shown = (camera, tick.time_seconds);
@@ -299,7 +294,7 @@ impl Session {
     }
 
     /// What the hand did since the last frame. It works while paused too: then its strokes are all that changes.
-    fn strokes(&mut self, seconds: f64) {
+    fn strokes(&mut self, seconds: f64) -> Strokes {
         let held = self.pointer.grip() == Some(Grip::Brush);
         let repeats = self.repeat.acts(held, seconds, f64::from(self.panel.brush.per_second));
         let mut pixels = std::mem::take(&mut self.taps);
@@ -316,10 +311,14 @@ impl Session {
         if let Err(error) = self.gpu.device.poll(poll) {
             log::warn!("the GPU does not answer: {error}");
         }
+        let mut strokes = Strokes::default();
         for lattice in self.picker.answers() {
-            self.hand_strokes += 1;
-            log::debug!("the hand acts at {lattice:?}");
+            if let Some(stroke) = hand::stroke(&self.panel.brush, &self.panel.scene, lattice, self.hand_strokes) {
+                strokes.push(stroke);
+                self.hand_strokes += 1;
+            }
         }
+        strokes
     }
 }
 
