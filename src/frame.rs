@@ -3,30 +3,51 @@
 use std::collections::HashMap;
 
 use crate::camera::Camera;
+use crate::clock::Tick;
+use crate::field::bins::BinError;
 use crate::field::compose::{Compose, ComposeSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
-use crate::field::{Field, Region};
+use crate::field::stamp::{StampSet, Stamps};
+use crate::field::wave::{self, WaveSet, Waves};
+use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
+use crate::stroke::Strokes;
 use crate::surface::surface::{Radiance, SurfaceSet};
 use crate::surface::{Albedo, Shadow, Shows, Surface, Technique, View, ViewSet, view};
 
-/// What a frame starts from: a scene whose field size is settled, and the heights that its base stands for.
+/// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// The scene.
     pub scene: Scene,
-    /// `width · height` heights, row by row.
+    /// `width · height` heights, row by row: the base, and the posts that stand on it.
     pub heights: Vec<f32>,
+    /// As many texels of [`crate::field::Material`].
+    pub material: Vec<u32>,
+}
+
+impl Start {
+    /// The start of a scene whose base has these heights.
+    pub fn new(scene: &Scene, heights: Vec<f32>) -> Self {
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights };
+        for (texel, top) in base::posts(scene) {
+            start.heights[texel] = top;
+            start.material[texel] = base::POST_MATERIAL;
+        }
+        start
+    }
 }
 
 /// What one frame is asked.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameInput<'a> {
-    /// The time that it shows, seconds.
-    pub time_seconds: f64,
+    /// The time that it shows and the steps that it owes.
+    pub tick: &'a Tick,
+    /// What is done to the field in it.
+    pub strokes: &'a Strokes,
     /// Where it is seen from.
     pub camera: &'a Camera,
     /// What the picture shows.
@@ -39,6 +60,9 @@ pub enum FrameError {
     /// A shader does not compile.
     #[error(transparent)]
     Shader(#[from] ShaderError),
+    /// The strokes of one frame are too many.
+    #[error(transparent)]
+    Strokes(#[from] BinError),
     /// A size is beyond the adapter.
     #[error("{what} of {width}×{height} is beyond this adapter's limit of {limit} {unit}; {remedy}")]
     Limit {
@@ -66,6 +90,9 @@ pub struct Frame {
     scene: Scene,
     view_layout: BindingLayout,
     view_set: ViewSet,
+    waves: Option<(Waves, WaveSet)>,
+    stamps: Stamps,
+    stamp_set: StampSet,
     compose: Compose,
     compose_set: ComposeSet,
     normals: Normals,
@@ -78,8 +105,17 @@ pub struct Frame {
     radiance: Texture<Radiance>,
     present_set: PresentSet,
     image_size: [u32; 2],
-    /// Whether the height field must be derived anew.
-    stale: bool,
+    /// The texels whose layers changed since the height field was derived from them.
+    dirty: Dirty,
+    traffic: Traffic,
+}
+
+/// What the field's passes of one frame touched, for the account of its bytes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Traffic {
+    wave_steps: u32,
+    stamped_texels: u64,
+    derived_texels: u64,
 }
 
 impl Frame {
@@ -94,9 +130,17 @@ impl Frame {
         let field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
         let view_layout = view::layout(gpu);
         let view_set = ViewSet::new(gpu, &view_layout, field.addressing);
-        let (compose, normals, pyramid) = (Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let (compose_set, normals_set, pyramid_set) =
-            (compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
+        let waves = match &scene.wave {
+            Some(wave) => {
+                let waves = Waves::new(gpu)?;
+                let set = waves.bind(gpu, &field, wave, view::plane_size_metres(&scene));
+                Some((waves, set))
+            }
+            None => None,
+        };
+        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (stamp_set, compose_set, normals_set, pyramid_set) =
+            (stamps.bind(gpu, &field), compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -106,6 +150,9 @@ impl Frame {
             scene,
             view_layout,
             view_set,
+            waves,
+            stamps,
+            stamp_set,
             compose,
             compose_set,
             normals,
@@ -117,20 +164,25 @@ impl Frame {
             radiance,
             present_set,
             image_size,
-            stale: true,
+            dirty: Dirty::All,
+            traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
         frame.build_surface(gpu)?;
         Ok(frame)
     }
 
-    /// Puts the field back to its start.
+    /// Puts the field back to its start: the relief as it was, the water still.
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
-        self.stale = true;
+        self.field.material.write(gpu, &start.material);
+        if let Some((_, set)) = &mut self.waves {
+            set.reset(gpu, &self.field);
+        }
+        self.dirty = Dirty::All;
     }
 
-    /// Takes over what does not change the field's contents: trace, light, material, depth.
+    /// Takes over what does not change the field's contents: trace, light, material, depth, the wave's speed, damping and border.
     ///
     /// # Errors
     ///
@@ -146,7 +198,14 @@ impl Frame {
         if before.trace.supersampling != scene.trace.supersampling {
             self.retarget(gpu);
         }
-        self.stale = true;
+        if let (Some((_, set)), Some(wave)) = (&mut self.waves, &scene.wave)
+            && before.wave != scene.wave
+        {
+            set.set_scene(gpu, &self.field, wave, view::plane_size_metres(scene));
+        }
+        if before.plane != scene.plane || before.wave != scene.wave {
+            self.dirty = Dirty::All;
+        }
         Ok(())
     }
 
@@ -191,47 +250,132 @@ impl Frame {
         self.image_size
     }
 
-    /// Bytes of GPU memory of every texture.
-    pub fn memory_bytes(&self) -> u64 {
-        self.field.memory_bytes() + self.radiance.memory_bytes()
+    /// The simulation's time step, seconds; none where nothing is simulated.
+    pub fn step_seconds(&self) -> Option<f64> {
+        let wave = self.scene.wave.as_ref()?;
+        Some(wave::step_seconds(wave, view::plane_size_metres(&self.scene)[0] / f64::from(self.scene.field.size[0])))
     }
 
-    /// Records one frame.
-    pub fn record(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, input: &FrameInput<'_>, target: &wgpu::TextureView) {
+    /// Records one frame. Where nobody looks (`target` is `None`) it only does to the layers what is to be done.
+    ///
+    /// # Errors
+    ///
+    /// The strokes are too many for one frame on this adapter.
+    pub fn record(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        input: &FrameInput<'_>,
+        target: Option<&wgpu::TextureView>,
+    ) -> Result<(), FrameError> {
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
-        if self.stale {
-            self.derive(recorder, &[Region::all(self.field.size)]);
+        self.traffic = Traffic::default();
+        // Advance the waves by the steps that the clock owes, with the drops that fall before each.
+        if let Some((waves, set)) = &mut self.waves {
+            if waves.record(recorder, set, input.tick.steps, &input.strokes.splashes)? {
+                self.dirty = Dirty::All;
+            }
+            self.traffic.wave_steps = input.tick.steps;
         }
-        self.show(recorder, input, target);
-        self.stale = false;
+        // Press this frame's stamps into the relief.
+        let pressed = self.stamps.record(recorder, &mut self.stamp_set, &input.strokes.presses)?;
+        self.traffic.stamped_texels = self.stamp_set.touched_texels();
+        for region in pressed.regions(self.field.size) {
+            self.dirty.add(region, self.field.size);
+        }
+        let Some(target) = target else { return Ok(()) };
+        // Derive what depends on the layers, where they changed.
+        let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
+        self.traffic.derived_texels = changed.iter().map(Region::area).sum();
+        let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
+        if !changed.is_empty() {
+            self.derive(recorder, &changed);
+        }
+        // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
+        self.show(recorder, (&self.present, &self.present_set), input, target);
+        Ok(())
+    }
+
+    /// Submits what was recorded, with the timer's queries.
+    pub fn finish(&mut self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) {
+        self.timer.resolve(&mut encoder);
+        gpu.queue.submit([encoder.finish()]);
+        self.timer.end_frame();
+    }
+
+    /// Shows the field as it stands once more, in a target of another format, and leaves everything as it is.
+    pub fn show_with(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        present: &Present,
+        input: &FrameInput<'_>,
+        target: &wgpu::TextureView,
+    ) {
+        let set = present.bind(gpu, &self.radiance.view);
+        self.show(&mut Recorder { gpu, encoder, timer: &self.timer }, (present, &set), input, target);
     }
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
     fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
-        let (size, addressing) = (self.field.size, self.field.addressing);
+        let grown = |low, high| -> Vec<Region> {
+            changed.iter().flat_map(|region| region.grown(low, high, self.field.size, self.field.addressing)).collect()
+        };
         // Compose relief and waves into the height field proper.
-        self.compose.record(recorder, &self.compose_set, changed, 0.0, 0);
+        let (amplitude, current) = match (&self.scene.wave, &self.waves) {
+            (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
+            _ => (0.0, 0),
+        };
+        self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
-        let sloped: Vec<_> = changed.iter().flat_map(|region| region.grown(1, 1, size, addressing)).collect();
-        self.normals.record(recorder, &self.normals_set, &sloped, slope_per_height(&self.scene));
+        self.normals.record(recorder, &self.normals_set, &grown(1, 1), slope_per_height(&self.scene));
         // … and its bounds, which the cells before a texel see.
-        let cells: Vec<_> = changed.iter().flat_map(|region| region.grown(1, 0, size, addressing)).collect();
-        self.pyramid.record(recorder, &self.pyramid_set, &cells);
+        self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
     }
 
     /// Shows the field as it stands.
-    fn show(&self, recorder: &mut Recorder<'_>, input: &FrameInput<'_>, target: &wgpu::TextureView) {
+    fn show(
+        &self,
+        recorder: &mut Recorder<'_>,
+        (present, present_set): (&Present, &PresentSet),
+        input: &FrameInput<'_>,
+        target: &wgpu::TextureView,
+    ) {
         let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) else {
             unreachable!("every change of the choice builds its surface first")
         };
-        // March, shade and shadow what the camera sees.
         let traced = traced_size(&self.scene, self.image_size);
-        self.view_set.uniform.write(recorder.gpu, &View::new(&self.scene, input.camera, input.time_seconds, traced, input.shows));
+        let view = View::new(&self.scene, input.camera, input.tick.time_seconds, traced, input.shows);
+        self.view_set.uniform.write(recorder.gpu, &view);
         surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
-        // Tone-map to whatever we were given: a window or an image.
         let tone_map = input.shows == Shows::Picture;
-        let supersampling = self.scene.trace.supersampling;
-        self.present.record(recorder, &self.present_set, supersampling, tone_map, target);
+        present.record(recorder, present_set, self.scene.trace.supersampling, tone_map, target);
+    }
+
+    /// Bytes of GPU memory of every texture.
+    pub fn memory_bytes(&self) -> u64 {
+        let [width, height] = self.image_size.map(u64::from);
+        // The picture itself has four bytes a pixel in every format that is shown.
+        self.field.memory_bytes() + self.radiance.memory_bytes() + 4 * width * height
+    }
+
+    /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header.
+    pub fn field_traffic_bytes(&self) -> u64 {
+        let texels = u64::from(self.field.size[0]) * u64::from(self.field.size[1]);
+        let waves = if self.waves.is_some() { 4 } else { 0 };
+        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + pyramid::TEXEL_BYTES;
+        u64::from(self.traffic.wave_steps) * texels * wave::TEXEL_BYTES
+            + self.traffic.stamped_texels * stamp::TEXEL_BYTES
+            + self.traffic.derived_texels * derived
+    }
+
+    /// Bytes that tracing and presenting one picture reads and writes by design, where a view ray takes so many steps.
+    pub fn picture_traffic_bytes(&self, mean_steps: f64) -> f64 {
+        let traced = traced_size(&self.scene, self.image_size).map(f64::from);
+        let shown = self.image_size.map(f64::from);
+        // A step reads a node or a sample; a shaded pixel its four corners, its normal and its material; radiance is written
+        // once and read once.
+        traced[0] * traced[1] * (4.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
     }
 }
 
@@ -246,8 +390,12 @@ fn slope_per_height(scene: &Scene) -> [f32; 2] {
     [slope, slope]
 }
 
-/// Checks every size against the adapter before anything is made.
-fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<(), FrameError> {
+/// Checks every size against the adapter, before anything is made.
+///
+/// # Errors
+///
+/// A size is beyond a limit; the error names it.
+pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<(), FrameError> {
     let limits = gpu.device.limits();
     let texture = u64::from(limits.max_texture_dimension_2d);
     let check = |what, size: [u32; 2], remedy| {

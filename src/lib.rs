@@ -53,7 +53,6 @@ pub mod clock;
 pub mod field;
 pub mod frame;
 pub mod gpu;
-pub mod modes;
 pub mod present;
 pub mod reference;
 pub mod scene;

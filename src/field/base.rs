@@ -5,7 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::{Base, Scene};
+use super::wave;
+use crate::scene::{Base, Boundary, Scene};
+use crate::surface::view;
 
 /// Length and height of a brick with its joint, metres: the metric format of 215 × 65 mm.
 pub const BRICK_METRES: [f32; 2] = [0.225, 0.075];
@@ -50,6 +52,29 @@ pub fn rest_height(base: &Base) -> f32 {
         Base::Flat { height } => *height,
         Base::Bricks | Base::Cobbles | Base::Terrain | Base::Image { .. } => 1.0,
     }
+}
+
+/// The texel of [`crate::field::Material`] where a post stands: its third byte is full.
+pub const POST_MATERIAL: u32 = 0x00ff_0000;
+
+/// The texels on which the posts of a scene stand, with the height of their tops.
+pub fn posts(scene: &Scene) -> Vec<(usize, f32)> {
+    let Some(wave) = &scene.wave else { return Vec::new() };
+    let [width, height] = scene.field.size;
+    let plane_metres = view::plane_size_metres(scene);
+    let periodic = wave.boundary == Boundary::Periodic;
+    let mut posts = Vec::new();
+    for obstacle in &wave.obstacles {
+        for y in 0..height {
+            for x in 0..width {
+                let uv = [(f64::from(x) + 0.5) / f64::from(width), (f64::from(y) + 0.5) / f64::from(height)];
+                if wave::stands_on(obstacle, uv, plane_metres, periodic) {
+                    posts.push((y as usize * width as usize + x as usize, obstacle.top));
+                }
+            }
+        }
+    }
+    posts
 }
 
 /// Depth below the face of the wall, metres: rounded arrises, rough faces, recessed joints.

@@ -11,6 +11,9 @@ use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, Uni
 /// Edge of a tile, texels: one workgroup, one count of clamped texels.
 pub const TILE: u32 = 16;
 
+/// Bytes a texel by design: relief in, height out; a wave adds four.
+pub const TEXEL_BYTES: u64 = 8;
+
 /// Regions that one frame may compose separately; more become one.
 pub const MAX_REGIONS: u32 = 64;
 

@@ -8,6 +8,9 @@ use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
+/// Bytes a texel by design: height in, normal out.
+pub const TEXEL_BYTES: u64 = 12;
+
 /// Uniforms of one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -13,6 +13,9 @@ use crate::gpu::texture::mip_level_count;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
+/// Bytes a texel by design: height in, every level out, and every level but the last in again: 4 + 5⅓ + 1⅓ and a little.
+pub const TEXEL_BYTES: u64 = 11;
+
 /// Uniforms of one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

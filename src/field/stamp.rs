@@ -11,6 +11,9 @@ use super::{Dirty, Field};
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
 use crate::scene::Addressing;
 
+/// Bytes a texel of a touched tile by design: relief and material in and out.
+pub const TEXEL_BYTES: u64 = 16;
+
 /// The form of a stamp: its profile p over ρ, the distance from its centre in radii. Each is 0 from ρ = 1 on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u32)]
@@ -211,6 +214,13 @@ struct Buffers {
     tiles: List<Tile>,
     members: List<u32>,
     records: List<StampRecord>,
+}
+
+impl StampSet {
+    /// Texels of the tiles that the last stamps touched, a tile at the border counted whole.
+    pub fn touched_texels(&self) -> u64 {
+        self.bins.tiles.len() as u64 * u64::from(self.ground.tile_texels).pow(2)
+    }
 }
 
 impl Stamps {

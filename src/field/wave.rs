@@ -11,6 +11,9 @@ use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, UniformSlots};
 use crate::scene::{self, Boundary, Obstacle};
 
+/// Bytes a texel of one step by design: both states and the mask in, one state out.
+pub const TEXEL_BYTES: u64 = 13;
+
 /// The largest C² that is accepted. At ½ the checkerboard grows linearly; beyond it, exponentially.
 pub const MAX_COURANT_SQUARED: f64 = 0.49;
 

@@ -22,6 +22,13 @@ pub struct Readback {
 )]
 pub struct ReadbackError(String);
 
+impl ReadbackError {
+    /// The device says that it is done, but nothing came.
+    pub fn missing() -> Self {
+        Self("nothing arrived".to_owned())
+    }
+}
+
 impl Readback {
     /// Records the copy of a buffer's first `bytes`.
     pub fn record_buffer(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, source: &wgpu::Buffer, bytes: u64) -> Self {

@@ -61,8 +61,8 @@ impl Recorder<'_> {
 pub struct PassTime {
     /// The pass's name.
     pub name: String,
-    /// Milliseconds.
-    pub milliseconds: f64,
+    /// Milliseconds; none where the adapter has no timestamps.
+    pub milliseconds: Option<f64>,
 }
 
 impl Timer {
@@ -97,11 +97,11 @@ impl Timer {
     /// The times of the oldest frame that is finished and was not asked for yet, in the order of its passes.
     pub fn finished_frame(&mut self) -> Option<Vec<PassTime>> {
         let results = self.profiler.process_finished_frame(self.period_nanoseconds)?;
-        Some(results.iter().filter_map(pass_time).collect())
+        Some(results.iter().map(pass_time).collect())
     }
 }
 
-fn pass_time(result: &GpuTimerQueryResult) -> Option<PassTime> {
-    let time = result.time.as_ref()?;
-    Some(PassTime { name: result.label.clone(), milliseconds: (time.end - time.start) * 1e3 })
+fn pass_time(result: &GpuTimerQueryResult) -> PassTime {
+    let milliseconds = result.time.as_ref().map(|time| (time.end - time.start) * 1e3);
+    PassTime { name: result.label.clone(), milliseconds }
 }

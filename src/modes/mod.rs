@@ -1,12 +1,109 @@
-//! How the frame is run: live, to files, to numbers. The modes differ in who owns the clock and where the picture goes, and in
-//! nothing else.
+//! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
 
+pub mod capture;
 mod gui;
 pub mod hand;
 pub mod input;
 pub mod live;
 pub mod panel;
 pub mod pick;
+mod progress;
 pub mod readings;
 mod screen;
 pub mod session;
+pub mod stress;
+
+use crate::cli::CommonOptions;
+use crate::field::base;
+use crate::frame::{FrameError, Start};
+use crate::gpu::readback::ReadbackError;
+use crate::gpu::{AdapterError, Gpu, Preference, Readback, ShaderError};
+use crate::io::atomic::WriteError;
+use crate::io::scene_file::{self, LoadedScene, SceneFileError};
+
+/// Why a mode did not do what it was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum ModeError {
+    /// The scene or its image is unfit.
+    #[error(transparent)]
+    Scene(#[from] SceneFileError),
+    /// There is no device.
+    #[error(transparent)]
+    Adapter(#[from] AdapterError),
+    /// The frame cannot be made.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    /// A pass cannot be made.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The picture did not arrive.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+    /// The device failed on the way.
+    #[error("the graphics device failed: {0}; run it again, or choose another with --adapter")]
+    Device(String),
+    /// There is no window.
+    #[error("{0}")]
+    Window(String),
+}
+
+/// Opens the device that the command line asks for, hardware first.
+///
+/// # Errors
+///
+/// There is none, none matches, or none is able.
+pub fn open_device(common: &CommonOptions) -> Result<Gpu, AdapterError> {
+    pollster::block_on(Gpu::new(&preference(common)))
+}
+
+/// Which adapter the command line and the environment ask for.
+pub fn preference(common: &CommonOptions) -> Preference {
+    Preference {
+        name: common.machine.adapter.clone(),
+        backend: common.machine.backend.map(|backend| backend.wgpu()),
+        ..Preference::default()
+    }
+    .with_environment()
+}
+
+/// Loads the scene that the command line asks for.
+///
+/// # Errors
+///
+/// The scene or its image is unfit.
+pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError> {
+    scene_file::load(&common.scene, &common.overrides(), common.image_size)
+}
+
+/// What a frame starts from. Makes as many heights as the field has texels: check the size against the adapter first.
+pub fn start(loaded: &LoadedScene) -> Start {
+    let heights = match loaded.image_heights() {
+        Some(image) => image.heights,
+        // Only an image has no heights of its own.
+        None => base::heights(&loaded.scene).unwrap_or_default(),
+    };
+    Start::new(&loaded.scene, heights)
+}
+
+/// Waits for bytes on their way from the GPU.
+///
+/// # Errors
+///
+/// The device was lost.
+pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Result<Vec<u8>, ModeError> {
+    wait_for_gpu(gpu)?;
+    readback.take().unwrap_or_else(|| Err(ReadbackError::missing())).map_err(ModeError::from)
+}
+
+/// Waits until the GPU has done all that was submitted.
+///
+/// # Errors
+///
+/// The device was lost, or reported an error since the last call.
+pub fn wait_for_gpu(gpu: &Gpu) -> Result<(), ModeError> {
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| ModeError::Device(error.to_string()))?;
+    gpu.take_error().map_or(Ok(()), |error| Err(ModeError::Device(error)))
+}

@@ -1,0 +1,266 @@
+//! Stress: frames to numbers, headless.
+
+use std::fmt::Write as _;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use super::capture::{PICTURE_FORMAT, Picture, read_channels};
+use super::{ModeError, load_scene, open_device, progress, start, wait_for, wait_for_gpu};
+use crate::camera::Camera;
+use crate::cli::{StressOptions, Verbosity};
+use crate::clock::{Clock, Pace};
+use crate::field;
+use crate::frame::{Frame, FrameInput};
+use crate::gpu::{Gpu, PassTime, Readback};
+use crate::io::manifest::{Adapter, write_json};
+use crate::stroke::{self, Strokes};
+use crate::surface::{Channels, Shows};
+
+/// Frames before the first that counts: pipelines compile and caches fill in them.
+const WARMUP_FRAMES: u64 = 5;
+
+/// Time from frame to frame, seconds.
+const DT_SECONDS: f64 = 1.0 / 60.0;
+
+/// Median, 95th percentile and minimum.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// The middle value.
+    pub median: f64,
+    /// Exceeded by one value in twenty.
+    pub p95: f64,
+    /// The smallest.
+    pub min: f64,
+}
+
+/// The time of one pass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PassReport {
+    /// Its name.
+    pub name: String,
+    /// GPU time a frame, milliseconds; none where the adapter has no timestamps.
+    pub gpu_ms: Option<Spread>,
+}
+
+/// The time of a whole frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrameReport {
+    /// From submission until the GPU is done, milliseconds.
+    pub wall_ms: Spread,
+    /// The sum of its passes on the GPU, milliseconds.
+    pub gpu_ms: Option<Spread>,
+}
+
+/// Samples or nodes of the view rays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct StepsReport {
+    /// Mean over the pixels that show the surface.
+    pub mean: f64,
+    /// 99th percentile.
+    pub p99: f64,
+    /// The most.
+    pub max: f64,
+}
+
+/// All that a stress run measures.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the names are the report's own; --help and the README say what they mean")]
+pub struct Report {
+    pub adapter: Adapter,
+    pub scene: String,
+    pub technique: String,
+    pub shadow: String,
+    pub field_size: [u32; 2],
+    pub image_size: [u32; 2],
+    pub frames: u32,
+    pub passes: Vec<PassReport>,
+    pub frame: FrameReport,
+    pub steps_per_pixel: StepsReport,
+    pub bytes_per_frame: f64,
+    pub gb_per_s: f64,
+    pub field_bytes_per_texel: f64,
+    pub gpu_memory_bytes: u64,
+    pub clipped_texels: u64,
+}
+
+/// Runs the mode: prints the table, and writes the JSON file if one was asked for.
+///
+/// # Errors
+///
+/// The scene, its image, the adapter, its limits or the JSON file are unfit.
+pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, ModeError> {
+    let loaded = load_scene(&options.common)?;
+    let gpu = open_device(&options.common)?;
+    crate::frame::check_limits(&gpu, &loaded.scene, options.common.image_size)?;
+    let start = start(&loaded);
+    let scene = &start.scene;
+    let mut frame = Frame::new(&gpu, &start, options.common.image_size, PICTURE_FORMAT)?;
+    let picture = Picture::new(&gpu, options.common.image_size);
+    let pass = Channels::new(&gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?;
+
+    let mut clock = Clock::new(frame.step_seconds());
+    let mut samples = Samples::default();
+    let mut bytes = Vec::new();
+    let total = WARMUP_FRAMES + u64::from(options.frames);
+    let progress = progress::bar(total, &scene.name, verbosity == Verbosity::Quiet);
+    let mut steps = StepsReport::default();
+    for number in 0..total {
+        let tick = clock.advance(Pace::Fixed { dt_seconds: DT_SECONDS });
+        let mut strokes = Strokes::of_scene(scene, scene.seed, &tick);
+        let (count, radius) = (options.stamps, options.stamp_radius);
+        strokes.presses.extend(stroke::stress_discs(scene.seed, number, count, radius, scene.field.size));
+        let camera = Camera::at(&scene.camera, tick.time_seconds);
+        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+        let mut encoder = gpu.encoder("stress");
+        frame.record(&gpu, &mut encoder, &input, Some(picture.view()))?;
+        let submitted = Instant::now();
+        frame.finish(&gpu, encoder);
+        wait_for_gpu(&gpu)?;
+        let wall_ms = submitted.elapsed().as_secs_f64() * 1e3;
+        let times = frame.timer.finished_frame();
+        if number >= WARMUP_FRAMES {
+            samples.add(wall_ms, times.unwrap_or_default());
+            bytes.push(frame.field_traffic_bytes() as f64);
+        }
+        if number + 1 == total {
+            steps = count_steps(&gpu, &frame, &pass, &input)?;
+        }
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+
+    let frame_report = samples.frame();
+    let field_bytes = bytes.iter().sum::<f64>() / bytes.len() as f64;
+    let bytes_per_frame = field_bytes + frame.picture_traffic_bytes(steps.mean);
+    let frame_ms = frame_report.gpu_ms.unwrap_or(frame_report.wall_ms).median;
+    let report = Report {
+        adapter: (&gpu.adapter.get_info()).into(),
+        scene: scene.name.clone(),
+        technique: scene.trace.technique.name().to_owned(),
+        shadow: scene.trace.shadow.name().to_owned(),
+        field_size: scene.field.size,
+        image_size: options.common.image_size,
+        frames: options.frames,
+        passes: samples.passes(),
+        frame: frame_report,
+        steps_per_pixel: steps,
+        bytes_per_frame,
+        gb_per_s: bytes_per_frame / frame_ms / 1e6,
+        field_bytes_per_texel: field::bytes_per_texel(),
+        gpu_memory_bytes: frame.memory_bytes(),
+        clipped_texels: clipped_texels(&gpu, &frame)?,
+    };
+    if let Some(path) = &options.json {
+        write_json(path, &report)?;
+    }
+    Ok(table(&report))
+}
+
+/// What was measured, frame by frame.
+#[derive(Default)]
+struct Samples {
+    wall_ms: Vec<f64>,
+    gpu_ms: Vec<f64>,
+    passes: Vec<(String, Vec<f64>)>,
+}
+
+impl Samples {
+    fn add(&mut self, wall_ms: f64, times: Vec<PassTime>) {
+        self.wall_ms.push(wall_ms);
+        self.gpu_ms.extend(times.iter().map(|time| time.milliseconds).sum::<Option<f64>>().filter(|_| !times.is_empty()));
+        for time in times {
+            match self.passes.iter_mut().find(|(name, _)| *name == time.name) {
+                Some((_, all)) => all.extend(time.milliseconds),
+                None => self.passes.push((time.name, time.milliseconds.into_iter().collect())),
+            }
+        }
+    }
+
+    fn passes(&self) -> Vec<PassReport> {
+        self.passes.iter().map(|(name, times)| PassReport { name: name.clone(), gpu_ms: spread(times) }).collect()
+    }
+
+    fn frame(&self) -> FrameReport {
+        // At least one frame was asked for, so there is a wall time.
+        let nothing = Spread { median: 0.0, p95: 0.0, min: 0.0 };
+        FrameReport { wall_ms: spread(&self.wall_ms).unwrap_or(nothing), gpu_ms: spread(&self.gpu_ms) }
+    }
+}
+
+/// Median, 95th percentile and minimum; none of nothing.
+fn spread(values: &[f64]) -> Option<Spread> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let min = *sorted.first()?;
+    Some(Spread { median: quantile(&sorted, 0.5), p95: quantile(&sorted, 0.95), min })
+}
+
+/// The value below which so large a share of the sorted values lies (nearest rank).
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil() as usize;
+    sorted[rank.clamp(1, sorted.len()) - 1]
+}
+
+fn count_steps(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<StepsReport, ModeError> {
+    let channels = read_channels(gpu, frame, pass, input)?;
+    let mut steps: Vec<f64> =
+        channels.iter().filter(|pixel| pixel.steps >= 0.0).map(|pixel| f64::from(pixel.steps)).collect();
+    steps.sort_by(f64::total_cmp);
+    let Some(&max) = steps.last() else { return Ok(StepsReport::default()) };
+    Ok(StepsReport { mean: steps.iter().sum::<f64>() / steps.len() as f64, p99: quantile(&steps, 0.99), max })
+}
+
+/// How many texels composition clamped.
+///
+/// # Errors
+///
+/// The device was lost.
+fn clipped_texels(gpu: &Gpu, frame: &Frame) -> Result<u64, ModeError> {
+    let mut encoder = gpu.encoder("clipped");
+    let readback = Readback::record_buffer(gpu, &mut encoder, &frame.field.clipped, frame.field.clipped.size());
+    gpu.queue.submit([encoder.finish()]);
+    readback.start();
+    let counts: Vec<u32> = bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback)?);
+    Ok(counts.into_iter().map(u64::from).sum())
+}
+
+/// The report for people.
+fn table(report: &Report) -> String {
+    let mut text = String::new();
+    let mut line = |arguments: std::fmt::Arguments<'_>| {
+        // Writing to a String cannot fail.
+        let _ = text.write_fmt(arguments);
+        text.push('\n');
+    };
+    let [field_width, field_height] = report.field_size;
+    let [width, height] = report.image_size;
+    line(format_args!("{} ({}, {})", report.adapter.name, report.adapter.backend, report.adapter.driver));
+    line(format_args!(
+        "{}, {}, shadow {}: field {field_width}×{field_height}, picture {width}×{height}, {} frames\n",
+        report.scene, report.technique, report.shadow, report.frames
+    ));
+    line(format_args!("{:<22}{:>10}{:>10}{:>10}", "milliseconds a frame", "median", "95 %", "least"));
+    let mut row = |name: &str, spread: Option<Spread>| match spread {
+        Some(spread) => {
+            line(format_args!("{name:<22}{:>10.3}{:>10.3}{:>10.3}", spread.median, spread.p95, spread.min));
+        }
+        None => line(format_args!("{name:<22}{:>10}{:>10}{:>10}", "–", "–", "–")),
+    };
+    for pass in &report.passes {
+        row(&pass.name, pass.gpu_ms);
+    }
+    row("all passes, GPU", report.frame.gpu_ms);
+    row("submission to done", Some(report.frame.wall_ms));
+    let steps = report.steps_per_pixel;
+    line(format_args!("\nsteps a pixel          {:.1} mean, {:.0} at 99 %, {:.0} at most", steps.mean, steps.p99, steps.max));
+    line(format_args!(
+        "bytes a frame          {:.1} MB by design, {:.2} GB/s",
+        report.bytes_per_frame / 1e6,
+        report.gb_per_s
+    ));
+    line(format_args!("field                  {:.2} bytes a texel", report.field_bytes_per_texel));
+    line(format_args!("GPU memory             {:.1} MB", report.gpu_memory_bytes as f64 / 1e6));
+    line(format_args!("clipped texels         {}", report.clipped_texels));
+    text
+}
