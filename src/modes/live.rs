@@ -2,13 +2,14 @@
 //!
 //! Here are the window, its events and its frames; what they mean is in [`super::input`], what they change in [`super::session`].
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
-use winit::error::{EventLoopError, OsError};
+use winit::error::EventLoopError;
 use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{ModifiersState, PhysicalKey};
@@ -16,82 +17,67 @@ use winit::window::{Fullscreen, Window, WindowAttributes, WindowId};
 
 use super::gui::Gui;
 use super::input::{self, Action, Grip};
-use super::panel;
-use super::screen::{Acquired, Screen, ScreenError};
-use super::session::{Load, Pacing, Session};
-use crate::frame::{FrameError, Start};
-use crate::gpu::{Gpu, Preference};
+use super::panel::{self, PANEL_WIDTH};
+use super::screen::{Acquired, Screen};
+use super::session::{DT_SECONDS, Pacing, Session};
+use super::{ModeError, capture, preference, start};
+use crate::cli::LiveOptions;
+use crate::frame::{FrameInput, check_limits};
+use crate::io::scene_file::{self, LoadedScene, SceneOverrides};
+use crate::stroke::Strokes;
+use crate::surface::Shows;
 
-/// What a window is to show.
-pub struct Options {
-    /// Which adapter.
-    pub preference: Preference,
-    /// The scene that it begins with.
-    pub start: Start,
-    /// Every scene that can be chosen: name and description.
-    pub scenes: Vec<(String, String)>,
-    /// Makes the start of another scene, by its name.
-    pub load: Load,
-    /// Size of the window, pixels.
-    pub image_size: [u32; 2],
-    /// After how many frames of 1/60 s to close; none: when the user closes it, and time is the wall's.
-    pub frames: Option<u32>,
-}
-
-/// Why there is no window, or no longer.
-#[derive(Debug, thiserror::Error)]
-pub enum LiveError {
-    /// There is no display.
-    #[error("there is no display to open a window on ({0}); set DISPLAY or WAYLAND_DISPLAY, or use `rilievo capture --out DIR`")]
-    NoDisplay(EventLoopError),
-    /// The window system refused a window.
-    #[error("the window system refuses a window: {0}")]
-    Window(#[from] OsError),
-    /// It cannot be drawn to.
-    #[error(transparent)]
-    Screen(#[from] ScreenError),
-    /// No frame can be made for it.
-    #[error(transparent)]
-    Frame(#[from] FrameError),
-    /// The device reported errors.
-    #[error("the graphics device reported an error: {0}; update its driver, or choose another adapter with --adapter")]
-    Device(String),
-    /// The window was closed too early.
-    #[error("the window was closed after {shown} of {wanted} frames, so nothing was written")]
-    Closed {
-        /// Frames shown.
-        shown: u32,
-        /// Frames asked for.
-        wanted: u32,
-    },
-}
-
-/// Opens the window and runs it until it is closed, or has shown its frames: then returns what it showed last.
+/// Runs the mode: opens a window and runs it until it is closed, or has shown the frames that a script wants.
 ///
 /// # Errors
 ///
-/// There is no display, no adapter that can draw to it, or the device fails.
-pub fn run(options: Options) -> Result<Option<Session>, LiveError> {
-    let event_loop = EventLoop::new().map_err(LiveError::NoDisplay)?;
-    let frames = options.frames;
-    let mut live = Live { options: Some(options), frames, shown: 0, open: None, outcome: Ok(()) };
-    event_loop.run_app(&mut live).map_err(LiveError::NoDisplay)?;
+/// The scene or its image is unfit, there is no display, no adapter that can draw to it, the device fails, the window is closed
+/// before a script's last frame, or that frame cannot be written.
+pub fn run(options: &LiveOptions) -> Result<(), ModeError> {
+    let loaded = scene_file::load(&options.common.scene, &options.common.overrides(), framed_size(options))?;
+    let no_display = |error: EventLoopError| {
+        ModeError::Window(format!(
+            "there is no display to open a window on ({error}): set DISPLAY or WAYLAND_DISPLAY, or use `rilievo capture --out DIR`"
+        ))
+    };
+    let event_loop = EventLoop::new().map_err(no_display)?;
+    let mut live = Live { options, loaded: Some(loaded), shown: 0, open: None, outcome: Ok(()) };
+    event_loop.run_app(&mut live).map_err(no_display)?;
     live.outcome?;
-    match frames {
-        Some(wanted) if live.shown < wanted => Err(LiveError::Closed { shown: live.shown, wanted }),
-        Some(_) => Ok(live.open.map(|open| open.session)),
-        None => Ok(None),
+    match (options.frames, &options.out, live.open) {
+        (Some(wanted), Some(out), Some(open)) if live.shown >= wanted => write_last_frame(open.session, options, wanted, out),
+        (Some(wanted), ..) => Err(ModeError::Window(format!(
+            "the window was closed after {} of {wanted} frames, so nothing was written: leave it open until they are shown",
+            live.shown
+        ))),
+        _ => Ok(()),
     }
 }
 
+/// The part of the picture that scenes are framed for: what the panel leaves free, where it is shown at first.
+fn framed_size(options: &LiveOptions) -> [u32; 2] {
+    let [width, height] = options.common.image_size;
+    let panel = if options.frames.is_none() { PANEL_WIDTH as u32 } else { 0 };
+    [if width > 2 * panel { width - panel } else { width }, height]
+}
+
+/// Writes the last frame as a capture would: of the size that was asked for, whatever became of the window's.
+fn write_last_frame(mut session: Session, options: &LiveOptions, frames: u32, out: &Path) -> Result<(), ModeError> {
+    session.frame.resize(&session.gpu, options.common.image_size)?;
+    let (camera, tick) = session.last();
+    let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, shows: Shows::Picture };
+    capture::write_last_frame(&session.gpu, &mut session.frame, &input, DT_SECONDS, frames - 1, out)
+}
+
 /// The program in a window.
-struct Live {
+struct Live<'a> {
+    options: &'a LiveOptions,
     /// Until the window is open.
-    options: Option<Options>,
-    frames: Option<u32>,
+    loaded: Option<LoadedScene>,
+    /// How many frames there were.
     shown: u32,
     open: Option<Open>,
-    outcome: Result<(), LiveError>,
+    outcome: Result<(), ModeError>,
 }
 
 /// The open window.
@@ -106,14 +92,12 @@ struct Open {
     due: Option<Instant>,
     visible: bool,
     title: String,
-    /// Where a script's frames go while the window shows none.
-    unseen: Option<wgpu::TextureView>,
 }
 
-impl ApplicationHandler for Live {
+impl ApplicationHandler for Live<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if let Some(options) = self.options.take() {
-            match Open::new(event_loop, options) {
+        if let Some(loaded) = self.loaded.take() {
+            match Open::new(event_loop, self.options, &loaded) {
                 Ok(open) => self.open = Some(open),
                 Err(error) => self.end(event_loop, Err(error)),
             }
@@ -124,10 +108,10 @@ impl ApplicationHandler for Live {
         let Some(open) = &mut self.open else { return };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
-            WindowEvent::RedrawRequested if !event_loop.exiting() => match open.draw(self.frames.is_some()) {
+            WindowEvent::RedrawRequested if !event_loop.exiting() => match open.draw(self.options.frames.is_some()) {
                 Ok(drawn) => {
                     self.shown += u32::from(drawn);
-                    if self.frames.is_some_and(|frames| self.shown >= frames) {
+                    if self.options.frames.is_some_and(|frames| self.shown >= frames) {
                         event_loop.exit();
                     }
                 }
@@ -151,23 +135,27 @@ impl ApplicationHandler for Live {
     }
 }
 
-impl Live {
-    fn end(&mut self, event_loop: &ActiveEventLoop, outcome: Result<(), LiveError>) {
+impl Live<'_> {
+    fn end(&mut self, event_loop: &ActiveEventLoop, outcome: Result<(), ModeError>) {
         self.outcome = outcome;
         event_loop.exit();
     }
 }
 
 impl Open {
-    fn new(event_loop: &ActiveEventLoop, options: Options) -> Result<Self, LiveError> {
-        let [width, height] = options.image_size;
+    fn new(event_loop: &ActiveEventLoop, options: &LiveOptions, loaded: &LoadedScene) -> Result<Self, ModeError> {
+        let [width, height] = options.common.image_size;
         let attributes = WindowAttributes::default().with_title("Rilievo").with_inner_size(PhysicalSize::new(width, height));
-        let window = Arc::new(event_loop.create_window(attributes)?);
-        let (screen, gpu) = Screen::open(event_loop, window.clone(), &options.preference)?;
+        let window = event_loop.create_window(attributes).map_err(|error| {
+            ModeError::Window(format!("the window system refuses a window ({error}): use `rilievo capture --out DIR`"))
+        })?;
+        let window = Arc::new(window);
+        let (screen, gpu) = Screen::open(event_loop, window.clone(), &preference(&options.common))?;
+        check_limits(&gpu, &loaded.scene, options.common.image_size)?;
         let gui = Gui::new(&gpu, window.clone(), screen.format(), panel::set_style);
         let pacing = if options.frames.is_some() { Pacing::Fixed } else { Pacing::Realtime };
-        let Options { start, scenes, load, .. } = options;
-        let session = Session::new(gpu, start, scenes, load, pacing, screen.size(), screen.format())?;
+        let session = Session::new(gpu, start(loaded), pacing, screen.size(), screen.format())?;
+        let session = session.with_scenes(scenes(&options.common.scene, loaded), scene_loader(options));
         let now = Instant::now();
         Ok(Self {
             session,
@@ -179,7 +167,6 @@ impl Open {
             due: Some(now),
             visible: true,
             title: String::new(),
-            unseen: None,
         })
     }
 
@@ -233,6 +220,9 @@ impl Open {
             let fullscreen = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
             self.window.set_fullscreen(fullscreen);
         }
+        if action == Action::Picture {
+            self.session.save_picture();
+        }
         self.session.act(action);
     }
 
@@ -270,25 +260,22 @@ impl Open {
         }
     }
 
-    /// One frame. Returns whether one was run: a script's always is, a user's only if the window shows it.
-    fn draw(&mut self, scripted: bool) -> Result<bool, LiveError> {
+    /// One frame. Returns whether there was one: a script's frames go on while the window is hidden, a user's do not.
+    fn draw(&mut self, scripted: bool) -> Result<bool, ModeError> {
         let now = Instant::now();
         let elapsed_seconds = now.duration_since(self.last_frame).as_secs_f64();
-        let acquired = self.screen.acquire(&self.session.gpu);
-        let size = self.screen.size();
-        let (texture, target) = match acquired {
-            Acquired::Texture(texture) => {
-                let target = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
-                (Some(texture), target)
-            }
-            Acquired::Skip if scripted => (None, self.unseen(size)),
+        let texture = match self.screen.acquire(&self.session.gpu) {
+            Acquired::Texture(texture) => Some(texture),
+            Acquired::Skip if scripted => None,
             Acquired::Skip => {
                 // Not at once: a hidden window would keep a processor busy.
                 self.due = Some(now + Duration::from_millis(50));
                 return self.check().map(|()| false);
             }
         };
+        let target = texture.as_ref().map(|texture| texture.texture.create_view(&wgpu::TextureViewDescriptor::default()));
         self.last_frame = now;
+        let size = self.screen.size();
         if self.session.frame.image_size() != size {
             self.session.frame.resize(&self.session.gpu, size)?;
         }
@@ -303,15 +290,16 @@ impl Open {
         session.apply_scene();
 
         let mut encoder = session.gpu.encoder("frame");
-        session.record(&mut encoder, &target, elapsed_seconds, self.gui.covered_pixels());
-        self.gui.record(&session.gpu, &mut encoder, size, &target);
-        session.gpu.queue.submit([encoder.finish()]);
+        session.record(&mut encoder, target.as_ref(), elapsed_seconds, self.gui.covered_pixels())?;
+        if let Some(target) = &target {
+            self.gui.record(&session.gpu, &mut encoder, size, target);
+        }
+        session.finish(encoder, elapsed_seconds);
         if let Some(texture) = texture {
             self.window.pre_present_notify();
             session.gpu.queue.present(texture);
         }
         self.gui.end_frame();
-        session.end_frame(elapsed_seconds);
 
         let title = session.title();
         if title != self.title {
@@ -323,28 +311,23 @@ impl Open {
         self.check().map(|()| true)
     }
 
-    /// A texture in place of the window's, of its size and format.
-    fn unseen(&mut self, size: [u32; 2]) -> wgpu::TextureView {
-        let gpu = &self.session.gpu;
-        let fits = |view: &&wgpu::TextureView| [view.texture().width(), view.texture().height()] == size;
-        if let Some(view) = self.unseen.as_ref().filter(fits) {
-            return view.clone();
-        }
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("unseen"),
-            size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: self.screen.format(),
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
-            view_formats: &[],
-        });
-        self.unseen.insert(texture.create_view(&wgpu::TextureViewDescriptor::default())).clone()
+    fn check(&self) -> Result<(), ModeError> {
+        self.session.gpu.take_error().map_or(Ok(()), |error| Err(ModeError::Device(error)))
     }
+}
 
-    fn check(&self) -> Result<(), LiveError> {
-        let gpu: &Gpu = &self.session.gpu;
-        gpu.take_error().map_or(Ok(()), |error| Err(LiveError::Device(error)))
+/// Name and description of every scene that can be chosen: those that come with the program, and the file it was started with.
+fn scenes(started_with: &str, loaded: &LoadedScene) -> Vec<(String, String)> {
+    let mut scenes: Vec<_> = scene_file::list().into_iter().map(|(name, description)| (name.to_owned(), description)).collect();
+    if scenes.iter().all(|(name, _)| name != started_with) {
+        scenes.push((started_with.to_owned(), loaded.scene.description.clone()));
     }
+    scenes
+}
+
+/// What makes the start of another scene. Of the command line, what suits every scene goes for it too: the field's size.
+fn scene_loader(options: &LiveOptions) -> super::session::Load {
+    let overrides = SceneOverrides { field: options.common.overrides().field, ..SceneOverrides::default() };
+    let framed_size = framed_size(options);
+    Box::new(move |name| scene_file::load(name, &overrides, framed_size).map(|loaded| start(&loaded)).map_err(ModeError::from))
 }

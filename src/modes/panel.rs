@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use egui::{Align, Align2, Color32, Layout, RichText, Ui, vec2};
 
+pub use self::widgets::PANEL_WIDTH;
 use self::widgets::{Control, choice, colour, group, value};
 use super::input::{Action, GESTURES, SHORTCUTS};
 use super::readings::{self, Readings};
@@ -136,7 +137,7 @@ impl Panel {
         let mut actions = Vec::new();
         if self.shown {
             let frame = egui::Frame::side_top_panel(ui.style()).fill(ui.visuals().panel_fill.gamma_multiply(0.94));
-            egui::Panel::left("panel").frame(frame).resizable(false).exact_size(widgets::PANEL_WIDTH).show(ui, |ui| {
+            egui::Panel::left("panel").frame(frame).resizable(false).exact_size(PANEL_WIDTH).show(ui, |ui| {
                 self.head(ui, readings, &mut actions);
                 ui.separator();
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.groups(ui, readings, &mut actions));

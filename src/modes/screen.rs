@@ -5,21 +5,8 @@ use std::sync::Arc;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
+use super::ModeError;
 use crate::gpu::{AdapterError, Gpu, Preference, adapter};
-
-/// Why there is nothing to draw to.
-#[derive(Debug, thiserror::Error)]
-pub enum ScreenError {
-    /// No adapter can draw to the window.
-    #[error(transparent)]
-    Adapter(#[from] AdapterError),
-    /// The window system gave no surface.
-    #[error("the window cannot be drawn to ({0}); `rilievo capture --out DIR` needs no window")]
-    Surface(#[from] wgpu::CreateSurfaceError),
-    /// The adapter knows no format for it.
-    #[error("{0} has no format for this window; try another adapter with --adapter (`rilievo adapters` lists them)")]
-    Format(String),
-}
 
 /// What became of a request for the next picture of the window.
 pub enum Acquired {
@@ -46,14 +33,16 @@ impl Screen {
     /// # Errors
     ///
     /// There is no surface, no adapter for it, or no format.
-    pub fn open(event_loop: &ActiveEventLoop, window: Arc<Window>, preference: &Preference) -> Result<(Self, Gpu), ScreenError> {
-        let mut last = None;
+    pub fn open(event_loop: &ActiveEventLoop, window: Arc<Window>, preference: &Preference) -> Result<(Self, Gpu), ModeError> {
+        let mut last: Option<ModeError> = None;
         for backends in preference.backend_sets() {
             let instance = adapter::instance(backends, Some(Box::new(event_loop.owned_display_handle())));
             let surface = match instance.create_surface(window.clone()) {
                 Ok(surface) => surface,
                 Err(error) => {
-                    last = Some(error.into());
+                    last = last.or(Some(ModeError::Window(format!(
+                        "the window cannot be drawn to ({error}): use `rilievo capture --out DIR`, which needs no window"
+                    ))));
                     continue;
                 }
             };
@@ -63,17 +52,20 @@ impl Screen {
                 Err(error) => last = last.or(Some(error.into())),
             }
         }
-        Err(last.unwrap_or(ScreenError::Adapter(AdapterError::None)))
+        Err(last.unwrap_or(ModeError::Adapter(AdapterError::None)))
     }
 
-    fn new(gpu: &Gpu, window: Arc<Window>, surface: wgpu::Surface<'static>) -> Result<Self, ScreenError> {
+    fn new(gpu: &Gpu, window: Arc<Window>, surface: wgpu::Surface<'static>) -> Result<Self, ModeError> {
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         // Eight bits that are stored as written: the presentation encodes for itself, and the panel's colours are made for it.
         let plain =
             |format: &&wgpu::TextureFormat| matches!(format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Rgba8Unorm);
         let format = formats.iter().find(plain).or(formats.first()).copied();
         let config = surface.get_default_config(&gpu.adapter, 1, 1).zip(format);
-        let (config, format) = config.ok_or_else(|| ScreenError::Format(gpu.describe()))?;
+        let (config, format) = config.ok_or_else(|| {
+            let adapter = gpu.describe();
+            ModeError::Window(format!("{adapter} has no format for this window: choose another adapter with --adapter"))
+        })?;
         let config = wgpu::SurfaceConfiguration { format, present_mode: wgpu::PresentMode::AutoVsync, ..config };
         let mut screen = Self { window, surface, config, configured: false, stale: false };
         screen.fit(gpu);

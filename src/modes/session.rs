@@ -1,19 +1,22 @@
 //! What a window shows, apart from the window: the scene and its frame, the clock, the camera, the hand.
 
+use std::path::PathBuf;
+
 use glam::DVec2;
 
-use super::hand;
+use super::capture::Picture;
+use super::{ModeError, hand};
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
 use super::readings::Readings;
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
-use crate::field::{self, wave};
+use crate::field::{self, base};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::Gpu;
-use crate::scene::Scene;
-use crate::stroke::{Lattice, Strokes};
+use crate::io::png_file;
+use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
 
 /// Time from frame to frame where it is fixed, and of a single step, seconds.
@@ -32,7 +35,7 @@ pub enum Pacing {
 }
 
 /// Makes the start of a scene, by its name.
-pub type Load = Box<dyn Fn(&str) -> Result<Start, String>>;
+pub type Load = Box<dyn Fn(&str) -> Result<Start, ModeError>>;
 
 /// See the module's documentation.
 pub struct Session {
@@ -48,7 +51,7 @@ pub struct Session {
     pub flight: FlightKeys,
     pub(super) rig: Rig,
     start: Start,
-    load: Load,
+    load: Option<Load>,
     pacing: Pacing,
     format: wgpu::TextureFormat,
     pub(super) readings: Readings,
@@ -60,8 +63,10 @@ pub struct Session {
     /// How many random strokes the hand has made.
     hand_strokes: u64,
     single_step: bool,
-    /// What the last frame showed: what a click in the next one means.
-    shown: (Camera, f64),
+    /// Where the last frame was seen from: what a click upon it means.
+    shown: Camera,
+    /// What the last frame spanned.
+    tick: Tick,
 }
 
 impl Session {
@@ -73,21 +78,19 @@ impl Session {
     pub fn new(
         gpu: Gpu,
         start: Start,
-        scenes: Vec<(String, String)>,
-        load: Load,
         pacing: Pacing,
         image_size: [u32; 2],
         format: wgpu::TextureFormat,
     ) -> Result<Self, FrameError> {
         let frame = Frame::new(&gpu, &start, image_size, format)?;
-        let mut panel = Panel::new(start.scene.clone(), scenes);
+        let mut panel = Panel::new(start.scene.clone(), Vec::new());
         // A script knows where the surface is in the picture, not where the panel is.
         panel.shown = pacing == Pacing::Realtime;
         let rig = Rig::new(start.scene.camera.clone());
         let readings = Readings::new(gpu.describe(), frame.timer.is_timed());
-        let shown = (rig.camera(0.0), 0.0);
+        let shown = rig.camera(0.0);
         Ok(Self {
-            clock: clock_of(&start.scene),
+            clock: Clock::new(frame.step_seconds()),
             gpu,
             frame,
             panel,
@@ -95,7 +98,7 @@ impl Session {
             flight: FlightKeys::default(),
             rig,
             start,
-            load,
+            load: None,
             pacing,
             format,
             readings,
@@ -105,7 +108,15 @@ impl Session {
             hand_strokes: 0,
             single_step: false,
             shown,
+            tick: Tick::default(),
         })
+    }
+
+    /// Offers other scenes, and knows how to make their starts.
+    pub fn with_scenes(mut self, scenes: Vec<(String, String)>, load: Load) -> Self {
+        self.panel.scenes = scenes;
+        self.load = Some(load);
+        self
     }
 
     /// What the window is called.
@@ -114,9 +125,27 @@ impl Session {
         format!("{} · {} · Rilievo", scene.name, scene.trace.technique.label())
     }
 
-    /// The camera and the time of the last frame.
-    pub fn shown(&self) -> (Camera, f64) {
-        self.shown
+    /// Camera and time of the last frame, for a picture of it that no panel covers.
+    pub fn last(&self) -> (Camera, Tick) {
+        (self.rig.centred(self.tick.time_seconds), self.tick)
+    }
+
+    /// Saves what the window shows, without the panel, as a PNG in the working directory, and says where.
+    pub fn save_picture(&mut self) {
+        let path = unused_file(&self.panel.scene.name);
+        let saved = self.picture().and_then(|pixels| Ok(png_file::write(&path, self.frame.image_size(), &pixels)?));
+        self.panel.say(match saved {
+            Ok(()) => format!("Saved {}", path.display()),
+            Err(error) => format!("No picture: {error}"),
+        });
+    }
+
+    fn picture(&self) -> Result<Vec<u8>, ModeError> {
+        let (camera, tick) = self.last();
+        let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, shows: self.panel.shows };
+        let picture = Picture::new(&self.gpu, self.frame.image_size());
+        picture.draw(&self.gpu, &self.frame, &input)?;
+        picture.read(&self.gpu)
     }
 
     /// Does what a key or the panel asks for. What concerns the window alone is not for here.
@@ -157,7 +186,7 @@ impl Session {
     fn restart(&mut self) {
         self.start.scene = self.panel.scene.clone();
         self.frame.reset(&self.gpu, &self.start);
-        self.clock = clock_of(&self.start.scene);
+        self.clock = Clock::new(self.frame.step_seconds());
         self.picker.forget();
         self.hand_strokes = 0;
     }
@@ -168,17 +197,17 @@ impl Session {
         self.panel.original.seed = seed;
         self.apply_scene();
         // An image has no seed.
-        if let Some(heights) = field::base::heights(&self.panel.scene) {
-            self.start.heights = heights;
+        if let Some(heights) = base::heights(&self.panel.scene) {
+            self.start = Start::new(&self.panel.scene, heights);
         }
         self.restart();
         self.panel.say(format!("Seed {seed}"));
     }
 
     fn choose(&mut self, index: usize) {
-        let Some((name, _)) = self.panel.scenes.get(index) else { return };
-        let made = (self.load)(name).and_then(|start| {
-            let frame = Frame::new(&self.gpu, &start, self.frame.image_size(), self.format).map_err(|error| error.to_string())?;
+        let (Some((name, _)), Some(load)) = (self.panel.scenes.get(index), &self.load) else { return };
+        let made = load(name).and_then(|start| {
+            let frame = Frame::new(&self.gpu, &start, self.frame.image_size(), self.format)?;
             Ok((start, frame))
         });
         match made {
@@ -186,7 +215,7 @@ impl Session {
                 self.frame = frame;
                 self.panel.choose(start.scene.clone());
                 self.rig = Rig::new(start.scene.camera.clone());
-                self.clock = clock_of(&start.scene);
+                self.clock = Clock::new(self.frame.step_seconds());
                 self.start = start;
                 self.picker.forget();
                 self.readings.forget_passes();
@@ -194,7 +223,7 @@ impl Session {
                 let description = self.panel.scene.description.clone();
                 self.panel.say(description);
             }
-            Err(error) => self.panel.say(error),
+            Err(error) => self.panel.say(error.to_string()),
         }
     }
 
@@ -240,7 +269,7 @@ impl Session {
         }
         match self.frame.set_scene(&self.gpu, &self.panel.scene) {
             Ok(()) => {
-                self.clock.set_step(step_seconds(&self.panel.scene));
+                self.clock.set_step(self.frame.step_seconds());
                 self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
             }
             Err(error) => {
@@ -252,34 +281,44 @@ impl Session {
 
     /// Records the next frame into `target`, `elapsed_seconds` after the one before by the wall clock. `covered` is how much of the
     /// left of the picture the panel hides, pixels: an orbit keeps its target in the middle of the rest.
-    pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView, elapsed_seconds: f64, covered: f64) {
+    ///
+    /// # Errors
+    ///
+    /// The frame has more strokes than the adapter can take.
+    pub fn record(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        target: Option<&wgpu::TextureView>,
+        elapsed_seconds: f64,
+        covered: f64,
+    ) -> Result<(), FrameError> {
         self.panel.pass_time(elapsed_seconds);
         let elapsed_seconds = elapsed_seconds.min(LONGEST_FRAME_SECONDS);
         let hand_seconds = if self.pacing == Pacing::Fixed { DT_SECONDS } else { elapsed_seconds };
         self.rig.fly(self.flight.movement(), hand_seconds);
-        let tick = self.tick(elapsed_seconds);
-        let strokes = self.strokes(hand_seconds);
+        let hand = self.hand(hand_seconds);
+        self.tick = self.tick(elapsed_seconds);
+        let mut strokes = Strokes::of_scene(&self.panel.scene, self.panel.scene.seed, &self.tick);
+        hand.into_iter().for_each(|stroke| strokes.push(stroke));
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
-        let camera = self.rig.camera(tick.time_seconds);
-        self.shown = (camera, tick.time_seconds);
-        let input = FrameInput { time_seconds: tick.time_seconds, camera: &camera, shows: self.panel.shows };
-        self.frame.record(&self.gpu, encoder, &input, target);
-        self.frame.timer.resolve(encoder);
-        self.readings.time_seconds = tick.time_seconds;
-        self.readings.steps = tick.steps;
-        self.readings.image_size = self.frame.image_size();
-        self.readings.field_size = self.frame.field.size;
-        self.readings.field_bytes_per_texel = field::bytes_per_texel();
-        self.readings.gpu_memory_bytes = self.frame.memory_bytes();
+        self.shown = self.rig.camera(self.tick.time_seconds);
+        let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, shows: self.panel.shows };
+        self.frame.record(&self.gpu, encoder, &input, target)
     }
 
-    /// After the submission of what [`Session::record`] recorded.
-    pub fn end_frame(&mut self, elapsed_seconds: f64) {
-        self.frame.timer.end_frame();
+    /// Submits what [`Session::record`] and others recorded, and notes what the frame cost.
+    pub fn finish(&mut self, encoder: wgpu::CommandEncoder, elapsed_seconds: f64) {
+        self.frame.finish(&self.gpu, encoder);
         while let Some(times) = self.frame.timer.finished_frame() {
             self.readings.note_passes(&times);
         }
         self.readings.note_frame(elapsed_seconds);
+        self.readings.time_seconds = self.tick.time_seconds;
+        self.readings.steps = self.tick.steps;
+        self.readings.image_size = self.frame.image_size();
+        self.readings.field_size = self.frame.field.size;
+        self.readings.field_bytes_per_texel = field::bytes_per_texel();
+        self.readings.gpu_memory_bytes = self.frame.memory_bytes();
     }
 
     fn tick(&mut self, elapsed_seconds: f64) -> Tick {
@@ -294,7 +333,7 @@ impl Session {
     }
 
     /// What the hand did since the last frame. It works while paused too: then its strokes are all that changes.
-    fn strokes(&mut self, seconds: f64) -> Strokes {
+    fn hand(&mut self, seconds: f64) -> Vec<Stroke> {
         let held = self.pointer.grip() == Some(Grip::Brush);
         let repeats = self.repeat.acts(held, seconds, f64::from(self.panel.brush.per_second));
         let mut pixels = std::mem::take(&mut self.taps);
@@ -302,8 +341,8 @@ impl Session {
         if pixels.is_empty() && repeats {
             pixels.extend(self.pointer.position());
         }
-        let (camera, time_seconds) = self.shown;
-        if let Err(error) = self.picker.ask(&self.gpu, &self.frame, &camera, time_seconds, &pixels) {
+        let asked = self.picker.ask(&self.gpu, &self.frame, &self.shown, self.tick.time_seconds, &pixels);
+        if let Err(error) = asked {
             log::error!("{error}");
         }
         let wait = self.pacing == Pacing::Fixed && self.picker.waits();
@@ -311,7 +350,7 @@ impl Session {
         if let Err(error) = self.gpu.device.poll(poll) {
             log::warn!("the GPU does not answer: {error}");
         }
-        let mut strokes = Strokes::default();
+        let mut strokes = Vec::new();
         for lattice in self.picker.answers() {
             if let Some(stroke) = hand::stroke(&self.panel.brush, &self.panel.scene, lattice, self.hand_strokes) {
                 strokes.push(stroke);
@@ -322,13 +361,12 @@ impl Session {
     }
 }
 
-/// The step of a scene's simulation, seconds.
-fn step_seconds(scene: &Scene) -> Option<f64> {
-    scene.wave.as_ref().map(|wave| wave::step_seconds(wave, Lattice::of_scene(scene).texel_metres))
-}
-
-fn clock_of(scene: &Scene) -> Clock {
-    Clock::new(step_seconds(scene))
+/// A file in the working directory that is not there yet, named after the scene.
+fn unused_file(scene: &str) -> PathBuf {
+    let plain = |character: char| if character.is_alphanumeric() || character == '-' { character } else { '_' };
+    let scene: String = scene.chars().map(plain).collect();
+    let named = |number: u32| PathBuf::from(format!("rilievo-{scene}-{number:03}.png"));
+    (1..).map(named).find(|path| !path.exists()).unwrap_or_else(|| named(0))
 }
 
 /// The element after this one, and the first after the last.
