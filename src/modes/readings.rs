@@ -62,10 +62,10 @@ impl Readings {
     /// Notes the GPU times of one frame. A pass that ran more than once counts with its sum.
     pub fn note_passes(&mut self, times: &[PassTime]) {
         let mut sums: Vec<(&str, f64)> = Vec::new();
-        for time in times {
-            match sums.iter_mut().find(|(name, _)| *name == time.name) {
-                Some((_, sum)) => *sum += time.milliseconds,
-                None => sums.push((&time.name, time.milliseconds)),
+        for (name, milliseconds) in times.iter().filter_map(|time| Some((time.name.as_str(), time.milliseconds?))) {
+            match sums.iter_mut().find(|(other, _)| *other == name) {
+                Some((_, sum)) => *sum += milliseconds,
+                None => sums.push((name, milliseconds)),
             }
         }
         for pass in &mut self.passes {
@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     fn time(name: &str, milliseconds: f64) -> PassTime {
-        PassTime { name: name.to_owned(), milliseconds }
+        PassTime { name: name.to_owned(), milliseconds: Some(milliseconds) }
     }
 
     #[test]
@@ -199,6 +199,13 @@ mod tests {
             readings.passes.iter().map(|pass| (pass.name.as_str(), pass.history.iter().copied().collect())).collect();
         assert_eq!(histories, [("wave", vec![3.0, 0.0]), ("surface", vec![5.0, 5.0]), ("stamp", vec![1.0])]);
         assert!(readings.passes[0].milliseconds < 3.0);
+    }
+
+    #[test]
+    fn an_adapter_without_timestamps_shows_no_times_rather_than_zeros() {
+        let mut readings = Readings::default();
+        readings.note_passes(&[PassTime { name: "wave".to_owned(), milliseconds: None }]);
+        assert!(readings.passes.is_empty());
     }
 
     #[test]
