@@ -36,9 +36,9 @@ use crate::surface::Shows;
 pub fn run(options: &LiveOptions) -> Result<(), ModeError> {
     let loaded = scene_file::load(&options.common.scene, &options.common.overrides(), framed_size(options))?;
     let no_display = |error: EventLoopError| {
-        ModeError::Window(format!(
-            "there is no display to open a window on ({error}): set DISPLAY or WAYLAND_DISPLAY, or use `rilievo capture --out DIR`"
-        ))
+        log::debug!("{error}");
+        let remedy = "set DISPLAY or WAYLAND_DISPLAY, or use `rilievo capture --out DIR`, which needs none";
+        ModeError::Window(format!("there is no display to open a window on: {remedy}"))
     };
     let event_loop = EventLoop::new().map_err(no_display)?;
     let mut live = Live { options, loaded: Some(loaded), shown: 0, open: None, outcome: Ok(()) };
@@ -107,7 +107,8 @@ impl ApplicationHandler for Live<'_> {
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(open) = &mut self.open else { return };
         match event {
-            WindowEvent::CloseRequested => event_loop.exit(),
+            // Destroyed: by someone else, with nothing left to ask or tell.
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => event_loop.exit(),
             WindowEvent::RedrawRequested if !event_loop.exiting() => match open.draw(self.options.frames.is_some()) {
                 Ok(drawn) => {
                     self.shown += u32::from(drawn);
@@ -187,7 +188,8 @@ impl Open {
         self.pointer(event);
         match event {
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
-            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => self.screen.outdate(),
+            // A changed scale factor brings a new size of its own.
+            WindowEvent::Resized(size) => self.screen.resize(*size),
             WindowEvent::Occluded(occluded) => self.visible = !occluded,
             WindowEvent::Focused(false) => {
                 self.session.flight.release();
@@ -264,7 +266,16 @@ impl Open {
     fn draw(&mut self, scripted: bool) -> Result<bool, ModeError> {
         let now = Instant::now();
         let elapsed_seconds = now.duration_since(self.last_frame).as_secs_f64();
-        let texture = match self.screen.acquire(&self.session.gpu) {
+        let mut actions = Vec::new();
+        let Session { gpu, panel, readings, .. } = &mut self.session;
+        let delay = self.gui.run(gpu, |ui| actions.extend(panel.show(ui, readings)));
+        for action in actions {
+            self.act(action);
+        }
+        let session = &mut self.session;
+        session.apply_scene();
+
+        let texture = match self.screen.acquire(&session.gpu) {
             Acquired::Texture(texture) => Some(texture),
             Acquired::Skip if scripted => None,
             Acquired::Skip => {
@@ -276,18 +287,9 @@ impl Open {
         let target = texture.as_ref().map(|texture| texture.texture.create_view(&wgpu::TextureViewDescriptor::default()));
         self.last_frame = now;
         let size = self.screen.size();
-        if self.session.frame.image_size() != size {
-            self.session.frame.resize(&self.session.gpu, size)?;
+        if session.frame.image_size() != size {
+            session.frame.resize(&session.gpu, size)?;
         }
-
-        let mut actions = Vec::new();
-        let Session { gpu, panel, readings, .. } = &mut self.session;
-        let delay = self.gui.run(gpu, |ui| actions.extend(panel.show(ui, readings)));
-        for action in actions {
-            self.act(action);
-        }
-        let session = &mut self.session;
-        session.apply_scene();
 
         let mut encoder = session.gpu.encoder("frame");
         session.record(&mut encoder, target.as_ref(), elapsed_seconds, self.gui.covered_pixels())?;

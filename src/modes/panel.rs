@@ -15,6 +15,9 @@ use super::readings::{self, Readings};
 use crate::scene::{Boundary, Rain, Scene};
 use crate::surface::{Albedo, Shadow, Shows, Technique};
 
+/// What the scroll bar takes of the panel, points.
+const SCROLL_BAR_WIDTH: f32 = 8.0;
+
 /// What the left mouse button does to the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BrushKind {
@@ -101,7 +104,7 @@ impl Panel {
             flies: false,
             shown: true,
             keys_shown: false,
-            message: Some(("F1 shows the keys, H hides this panel".to_owned(), 6.0)),
+            message: Some(("F1 shows the keys, H hides and shows the panel".to_owned(), 6.0)),
         }
     }
 
@@ -140,10 +143,15 @@ impl Panel {
             egui::Panel::left("panel").frame(frame).resizable(false).exact_size(PANEL_WIDTH).show(ui, |ui| {
                 self.head(ui, readings, &mut actions);
                 ui.separator();
-                egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.groups(ui, readings, &mut actions));
+                egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    // Beside the controls, not upon them.
+                    ui.set_max_width(ui.available_width() - SCROLL_BAR_WIDTH);
+                    self.groups(ui, readings, &mut actions);
+                });
             });
         }
-        self.keys(ui.ctx());
+        let middle = ui.available_rect_before_wrap().center();
+        self.keys(ui.ctx(), middle);
         self.messages(ui.ctx());
         actions
     }
@@ -301,6 +309,8 @@ impl Panel {
 
     fn simulation_group(&mut self, ui: &mut Ui) {
         let (scene, original) = (&mut self.scene, &self.original);
+        // Two sponges and a texel of water between them.
+        let widest_sponge = f64::from(scene.field.size[0].min(scene.field.size[1]).saturating_sub(1) / 2).clamp(1.0, 256.0);
         let changed = scene.wave != original.wave || scene.shots != original.shots;
         let reset = group(ui, "Simulation", true, Some(changed), |ui| {
             if let (Some(wave), Some(was)) = (&mut scene.wave, &original.wave) {
@@ -314,8 +324,9 @@ impl Panel {
                 const BOUNDARY: &str = "What a wave meets at the border";
                 choice(ui, "Border", BOUNDARY, &mut wave.boundary, was.boundary, BOUNDARIES, boundary_label);
                 if wave.boundary == Boundary::Absorbing {
-                    let control =
-                        Control::new("Sponge", " texels", 1.0, 256.0).integer().tip("Width of the layer that swallows waves");
+                    let control = Control::new("Sponge", " texels", 1.0, widest_sponge)
+                        .integer()
+                        .tip("Width of the layer that swallows waves");
                     value(ui, &control, &mut wave.sponge_texels, was.sponge_texels);
                 }
                 let rain_was = was.rain.clone().unwrap_or_default();
@@ -388,9 +399,9 @@ impl Panel {
         });
     }
 
-    fn keys(&mut self, ctx: &egui::Context) {
+    fn keys(&mut self, ctx: &egui::Context, middle: egui::Pos2) {
         let window = egui::Window::new("Keys").open(&mut self.keys_shown).collapsible(false).resizable(false);
-        window.pivot(Align2::CENTER_CENTER).default_pos(ctx.content_rect().center()).show(ctx, |ui| {
+        window.pivot(Align2::CENTER_CENTER).default_pos(middle).show(ctx, |ui| {
             let row = |ui: &mut Ui, keys: &str, does: &str| {
                 ui.label(RichText::new(keys).monospace().color(ui.visuals().strong_text_color()));
                 ui.label(does);

@@ -81,9 +81,10 @@ impl Readings {
         }
     }
 
-    /// Forgets the times: another frame is measured from now on.
+    /// Forgets every time: another frame is measured from now on.
     pub fn forget_passes(&mut self) {
         self.passes.clear();
+        self.frame_seconds = None;
     }
 
     /// Frames a second, smoothed; 0 before the first.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
@@ -19,6 +20,7 @@ pub enum Acquired {
 /// A window's surface.
 pub struct Screen {
     window: Arc<Window>,
+    window_size: PhysicalSize<u32>,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     /// Whether the configuration is in force: not while the window has no size.
@@ -67,7 +69,8 @@ impl Screen {
             ModeError::Window(format!("{adapter} has no format for this window: choose another adapter with --adapter"))
         })?;
         let config = wgpu::SurfaceConfiguration { format, present_mode: wgpu::PresentMode::AutoVsync, ..config };
-        let mut screen = Self { window, surface, config, configured: false, stale: false };
+        let window_size = window.inner_size();
+        let mut screen = Self { window, window_size, surface, config, configured: false, stale: false };
         screen.fit(gpu);
         Ok(screen)
     }
@@ -82,14 +85,17 @@ impl Screen {
         [self.config.width, self.config.height]
     }
 
-    /// Notes that the window's size may have changed.
-    pub fn outdate(&mut self) {
-        self.stale = true;
+    /// Notes the window's size. Told, not asked for: winit panics when asked about a window that was destroyed from outside.
+    pub fn resize(&mut self, size: PhysicalSize<u32>) {
+        if self.window_size != size {
+            self.window_size = size;
+            self.stale = true;
+        }
     }
 
     /// Takes over the window's size. Call it only while no picture of it is alive.
     fn fit(&mut self, gpu: &Gpu) {
-        let size = self.window.inner_size();
+        let size = self.window_size;
         if size.width == 0 || size.height == 0 {
             self.configured = false;
             return;

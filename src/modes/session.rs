@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::capture::Picture;
-use super::{ModeError, hand};
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
 use super::readings::Readings;
+use super::{ModeError, hand};
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
 use crate::field::{self, base};
