@@ -3,11 +3,16 @@
 //! The same value serves panel, command line, files and tests. Files are TOML; a field that is absent has its default, a field
 //! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
 
+mod framing;
+mod validate;
+
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
+
+pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -70,11 +70,7 @@ pub struct Lattice {
 impl Lattice {
     /// The lattice of a scene's field.
     pub fn of_scene(scene: &Scene) -> Self {
-        Self {
-            size: scene.field.size,
-            texel_metres: f64::from(scene.plane.width_metres) / f64::from(scene.field.size[0]),
-            depth_metres: f64::from(scene.plane.depth_metres),
-        }
+        Self { size: scene.field.size, texel_metres: scene.texel_metres(), depth_metres: f64::from(scene.plane.depth_metres) }
     }
 
     /// A point of the plane in lattice coordinates.

@@ -7,7 +7,6 @@ use std::f64::consts::TAU;
 
 use super::wave;
 use crate::scene::{Base, Boundary, Scene};
-use crate::surface::view;
 
 /// Length and height of a brick with its joint, metres: the metric format of 215 × 65 mm.
 pub const BRICK_METRES: [f32; 2] = [0.225, 0.075];
@@ -21,7 +20,7 @@ pub const COBBLE_METRES: f32 = 0.1;
 /// The heights of a procedural base, row by row; `None` for an image, which the caller loads.
 pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
     let [width, height] = scene.field.size;
-    let texel_metres = f64::from(scene.plane.width_metres) / f64::from(width);
+    let texel_metres = scene.texel_metres();
     let plane_metres = f64::from(scene.plane.width_metres);
     let depth_metres = f64::from(scene.plane.depth_metres);
     let fill = |function: &dyn Fn(f64, f64) -> f64| {
@@ -61,7 +60,7 @@ pub const POST_MATERIAL: u32 = 0x00ff_0000;
 pub fn posts(scene: &Scene) -> Vec<(usize, f32)> {
     let Some(wave) = &scene.wave else { return Vec::new() };
     let [width, height] = scene.field.size;
-    let plane_metres = view::plane_size_metres(scene);
+    let plane_metres = scene.plane_size_metres();
     let periodic = wave.boundary == Boundary::Periodic;
     let mut posts = Vec::new();
     for obstacle in &wave.obstacles {

@@ -251,8 +251,12 @@ impl Impulse {
         Disc { centre: self.centre, radius: self.radius }
     }
 
-    /// The factor of the ring that makes the sum over the free texels zero; nothing where there is no free texel to take it.
+    /// The factor of the ring that makes the sum over the free texels zero; nothing where there is no free texel to take it, or where
+    /// the impulse is no number.
     pub fn ring(&self, mask: &Mask) -> Option<f64> {
+        if !(self.strength.is_finite() && self.radius.is_finite() && self.centre.iter().all(|value| value.is_finite())) {
+            return None;
+        }
         let radius = f64::from(self.radius);
         let centre = self.centre.map(f64::from);
         let range = |axis: usize| (centre[axis] - radius).ceil() as i64..=(centre[axis] + radius).floor() as i64;

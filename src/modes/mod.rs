@@ -61,12 +61,8 @@ pub fn open_device(common: &CommonOptions) -> Result<Gpu, AdapterError> {
 
 /// Which adapter the command line and the environment ask for.
 pub fn preference(common: &CommonOptions) -> Preference {
-    Preference {
-        name: common.machine.adapter.clone(),
-        backend: common.machine.backend.map(|backend| backend.wgpu()),
-        ..Preference::default()
-    }
-    .with_environment()
+    Preference { name: common.machine.adapter.clone(), backend: common.machine.backend, ..Preference::default() }
+        .with_environment()
 }
 
 /// Loads the scene that the command line asks for.

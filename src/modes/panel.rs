@@ -411,7 +411,7 @@ impl Panel {
                 egui::Grid::new("shortcuts").spacing(vec2(16.0, 4.0)).show(ui, |ui| {
                     SHORTCUTS.iter().for_each(|shortcut| row(ui, shortcut.keys, shortcut.does));
                 });
-                ui.separator();
+                ui.add_space(16.0);
                 egui::Grid::new("gestures").spacing(vec2(16.0, 4.0)).show(ui, |ui| {
                     GESTURES.iter().for_each(|(keys, does)| row(ui, keys, does));
                 });

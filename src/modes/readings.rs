@@ -40,7 +40,7 @@ pub struct Readings {
     /// What the frame's textures and buffers cost altogether, bytes.
     pub gpu_memory_bytes: u64,
     /// Texels whose height composition had to clamp.
-    pub clipped_texels: Option<u32>,
+    pub clipped_texels: Option<u64>,
     /// Simulation steps in the last frame.
     pub steps: u32,
     frame_seconds: Option<f64>,
@@ -177,6 +177,7 @@ fn graph(ui: &mut Ui, readings: &Readings) {
         .allow_scroll(false)
         .allow_boxed_zoom(false)
         .allow_double_click_reset(false)
+        .grid_spacing(16.0..=120.0)
         .show_grid([false, true]);
     plot.show(ui, |plot| lines.into_iter().for_each(|line| plot.line(line)))
         .response

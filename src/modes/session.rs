@@ -14,7 +14,7 @@ use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
 use crate::field::{self, base};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Readback};
 use crate::io::png_file;
 use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
@@ -58,6 +58,8 @@ pub struct Session {
     clock: Clock,
     repeat: Repeat,
     picker: Picker,
+    /// The counts of clipped texels, on their way.
+    clipped: Option<Readback>,
     /// Where the brush was pressed since the last frame.
     taps: Vec<DVec2>,
     /// How many random strokes the hand has made.
@@ -104,6 +106,7 @@ impl Session {
             readings,
             repeat: Repeat::default(),
             picker: Picker::default(),
+            clipped: None,
             taps: Vec::new(),
             hand_strokes: 0,
             single_step: false,
@@ -219,6 +222,7 @@ impl Session {
                 self.start = start;
                 self.picker.forget();
                 self.readings.forget_passes();
+                self.clipped = None;
                 self.hand_strokes = 0;
                 let description = self.panel.scene.description.clone();
                 self.panel.say(description);
@@ -312,6 +316,7 @@ impl Session {
         while let Some(times) = self.frame.timer.finished_frame() {
             self.readings.note_passes(&times);
         }
+        self.note_clipped();
         self.readings.note_frame(elapsed_seconds);
         self.readings.time_seconds = self.tick.time_seconds;
         self.readings.steps = self.tick.steps;
@@ -319,6 +324,26 @@ impl Session {
         self.readings.field_size = self.frame.field.size;
         self.readings.field_bytes_per_texel = field::bytes_per_texel();
         self.readings.gpu_memory_bytes = self.frame.memory_bytes();
+    }
+
+    /// Notes the counts of clipped texels that arrived, and asks for the next.
+    fn note_clipped(&mut self) {
+        match self.clipped.as_ref().map(Readback::take) {
+            // On its way.
+            Some(None) => return,
+            Some(Some(Ok(bytes))) => {
+                let counts: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
+                self.readings.clipped_texels = Some(counts.into_iter().map(u64::from).sum());
+            }
+            Some(Some(Err(error))) => log::warn!("{error}"),
+            None => {}
+        }
+        let mut encoder = self.gpu.encoder("clipped");
+        let counts = &self.frame.field.clipped;
+        let readback = Readback::record_buffer(&self.gpu, &mut encoder, counts, counts.size());
+        self.gpu.queue.submit([encoder.finish()]);
+        readback.start();
+        self.clipped = Some(readback);
     }
 
     fn tick(&mut self, elapsed_seconds: f64) -> Tick {

@@ -204,8 +204,7 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 
 fn count_steps(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<StepsReport, ModeError> {
     let channels = read_channels(gpu, frame, pass, input)?;
-    let mut steps: Vec<f64> =
-        channels.iter().filter(|pixel| pixel.steps >= 0.0).map(|pixel| f64::from(pixel.steps)).collect();
+    let mut steps: Vec<f64> = channels.iter().filter(|pixel| pixel.steps >= 0.0).map(|pixel| f64::from(pixel.steps)).collect();
     steps.sort_by(f64::total_cmp);
     let Some(&max) = steps.last() else { return Ok(StepsReport::default()) };
     Ok(StepsReport { mean: steps.iter().sum::<f64>() / steps.len() as f64, p99: quantile(&steps, 0.99), max })
@@ -254,11 +253,7 @@ fn table(report: &Report) -> String {
     row("submission to done", Some(report.frame.wall_ms));
     let steps = report.steps_per_pixel;
     line(format_args!("\nsteps a pixel          {:.1} mean, {:.0} at 99 %, {:.0} at most", steps.mean, steps.p99, steps.max));
-    line(format_args!(
-        "bytes a frame          {:.1} MB by design, {:.2} GB/s",
-        report.bytes_per_frame / 1e6,
-        report.gb_per_s
-    ));
+    line(format_args!("bytes a frame          {:.1} MB by design, {:.2} GB/s", report.bytes_per_frame / 1e6, report.gb_per_s));
     line(format_args!("field                  {:.2} bytes a texel", report.field_bytes_per_texel));
     line(format_args!("GPU memory             {:.1} MB", report.gpu_memory_bytes as f64 / 1e6));
     line(format_args!("clipped texels         {}", report.clipped_texels));

@@ -9,6 +9,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
+use super::probe::Ray;
 use crate::camera::Camera;
 
 /// A linear form of the pixel, a·x + b·y + c, split in two. Twin of the WGSL struct in `shaders/common/view.wgsl`.
@@ -74,6 +75,20 @@ impl RayMap {
             nearest: (camera.eye().y / camera.near_metres) as f32,
         }
     }
+}
+
+/// The ray in field space through a point of the picture, for a pointer; none where it does not look down upon the plane.
+pub fn pixel_ray(camera: &Camera, image_size: [u32; 2], target: &Target, pixel: [f64; 2]) -> Option<Ray> {
+    let forms = exact_forms(camera, image_size, target);
+    let pixel = DVec3::new(pixel[0], pixel[1], 1.0);
+    let denominator = forms.denominator.dot(pixel);
+    let at = |form: DVec3| (form.dot(pixel) / denominator) as f32;
+    (denominator > 0.0 && camera.eye().y > 0.0).then(|| Ray {
+        lattice: forms.lattice.map(at),
+        travel: forms.travel.map(at),
+        height: 1.0,
+        rise: -1.0,
+    })
 }
 
 /// The coefficients of a [`RayMap`], in f64: each a vector that is multiplied with (x, y, 1).

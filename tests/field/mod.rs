@@ -1,0 +1,4 @@
+//! How the height field comes to be.
+
+mod stamp;
+mod wave;

@@ -1,0 +1,4 @@
+//! What many tests need.
+
+pub mod gpu;
+pub mod tolerances;

@@ -1,0 +1,3 @@
+//! How it is seen.
+
+mod ray_map;
