@@ -19,6 +19,7 @@ fn main() -> ExitCode {
     };
     let verbosity = command.verbosity();
     let result = match &command {
+        Command::Live(options) => modes::live::run(options),
         Command::Capture(options) => modes::capture::run(options, verbosity),
         Command::Stress(options) => modes::stress::run(options, verbosity).map(|table| print!("{table}")),
         _ => Ok(()),
