@@ -20,7 +20,7 @@ use super::input::{self, Action, Grip};
 use super::panel::{self, PANEL_WIDTH};
 use super::screen::{Acquired, Screen};
 use super::session::{DT_SECONDS, Pacing, Session};
-use super::{ModeError, capture, preference, start};
+use super::{ModeError, capture, start};
 use crate::cli::LiveOptions;
 use crate::frame::{FrameInput, check_limits};
 use crate::io::scene_file::{self, LoadedScene, SceneOverrides};
@@ -151,7 +151,7 @@ impl Open {
             ModeError::Window(format!("the window system refuses a window ({error}): use `rilievo capture --out DIR`"))
         })?;
         let window = Arc::new(window);
-        let (screen, gpu) = Screen::open(event_loop, window.clone(), &preference(&options.common))?;
+        let (screen, gpu) = Screen::open(event_loop, window.clone(), &options.common.machine.preference())?;
         check_limits(&gpu, &loaded.scene, options.common.image_size)?;
         let gui = Gui::new(&gpu, window.clone(), screen.format(), panel::set_style);
         let pacing = if options.frames.is_some() { Pacing::Fixed } else { Pacing::Realtime };
