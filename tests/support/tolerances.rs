@@ -55,3 +55,10 @@ pub const LATTICE_FLOOR: f64 = 1e-4;
 pub fn lattice_bound(largest: f64) -> f64 {
     LATTICE_FLOOR.max(8.0 * 2f64.powi(-24) * largest)
 }
+
+/// How far below the surface a ray may pass unnoticed, heights, besides what the precision of its position explains: the project's
+/// bar.
+pub const PENETRATION: f64 = 1e-5;
+
+/// Depth of a flat field, metres: a few roundings of heights near ½ times a depth of 0.1, and the filter's 8 bits cannot matter.
+pub const FLAT_FIELD: f64 = 1e-7;
