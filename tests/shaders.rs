@@ -23,7 +23,7 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/region", "field/compose"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
-        &["field/stamp"],
+        &["common/noise", "field/stamp"],
         &["field/wave"],
         &["present"],
     ];
@@ -197,7 +197,7 @@ fn every_struct_that_crosses_the_border_has_a_twin() {
 /// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
 #[test]
 fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
-    let module = module(&["field/stamp".to_owned()]);
+    let module = module(&["common/noise".to_owned(), "field/stamp".to_owned()]);
     let in_shader = |name: &str| {
         let (_, constant) = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name))?;
         match module.global_expressions[constant.init] {
