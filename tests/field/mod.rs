@@ -1,0 +1,5 @@
+//! How the height field comes to be.
+
+mod compose;
+mod normals;
+mod pyramid;

@@ -1,0 +1,56 @@
+//! A device for tests: the software adapter that every machine can have, unless wgpu's environment variables say otherwise.
+
+use std::sync::OnceLock;
+
+use rilievo::gpu::{Gpu, Preference, Readback, Recorder, Role, Texture, Timer};
+
+/// The device that tests share. Without an adapter a test fails in CI (where `CI` is set), and elsewhere says loudly that it skips.
+pub fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| {
+        let preference = Preference { software_first: true, ..Preference::default() }.with_environment();
+        match pollster::block_on(Gpu::new(&preference)) {
+            Ok(gpu) => Some(gpu),
+            Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
+            Err(error) => {
+                eprintln!("SKIPPED, nothing on the GPU is tested: {error}");
+                None
+            }
+        }
+    })
+    .as_ref()
+}
+
+/// Records, submits and waits.
+pub fn run<T>(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>) -> T) -> T {
+    let (result, _) = run_timed(gpu, record);
+    result
+}
+
+/// Records, submits and waits; also the milliseconds of each pass, where the adapter has timestamps.
+pub fn run_timed<T>(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>) -> T) -> (T, Vec<rilievo::gpu::PassTime>) {
+    let mut timer = Timer::new(gpu);
+    let mut encoder = gpu.encoder("test");
+    let result = record(&mut Recorder { gpu, encoder: &mut encoder, timer: &timer });
+    timer.resolve(&mut encoder);
+    gpu.queue.submit([encoder.finish()]);
+    timer.end_frame();
+    wait(gpu);
+    (result, timer.finished_frame().unwrap_or_default())
+}
+
+/// The texels of a texture, row by row.
+pub fn read<R: Role, T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture<R>) -> Vec<T> {
+    let mut encoder = gpu.encoder("test readback");
+    let readback = Readback::record_texture(gpu, &mut encoder, &texture.texture, 0);
+    gpu.queue.submit([encoder.finish()]);
+    readback.start();
+    wait(gpu);
+    let bytes = readback.take().expect("the device was polled until it was done").expect("the device is there");
+    bytemuck::pod_collect_to_vec(&bytes)
+}
+
+fn wait(gpu: &Gpu) {
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("waiting without a limit does not time out");
+    assert_eq!(gpu.take_error(), None);
+}

@@ -1,0 +1,69 @@
+//! Every tolerance of the tests, once, with its reason.
+
+/// f32 rounds to nearest: half of this, relative.
+pub const ULP: f64 = f32::EPSILON as f64;
+
+/// A wave against its f64 reference, in units of its amplitude: some 20 roundings a step, independent, add up to under
+/// √(20·100)·2⁻²⁵ ≈ 1.4e-6 over the 100 steps of the test. Twice that.
+pub const WAVE_STEPS: f64 = 3e-6;
+
+/// The discrete dispersion relation over 500 steps: the project's bar. An f32 emulation stays within a tenth.
+pub const WAVE_DISPERSION: f64 = 1e-4;
+
+/// Relative drift of the energy of an undamped wave over 500 steps: the project's bar.
+pub const WAVE_ENERGY: f64 = 1e-5;
+
+/// Relative rise of the energy of a damped wave from step to step: the f32 rounding of u and u⁻, whose difference the energy holds.
+pub const WAVE_ENERGY_RISE: f64 = 1e-6;
+
+/// Drift of the mean of a damped wave over 10,000 steps and 1,000 impulses, in amplitudes: the project's bar.
+pub const WAVE_MEAN_DAMPED: f64 = 1e-5;
+
+/// The same undamped, where the mean's velocity is a random walk that nothing holds back: the project's bar.
+pub const WAVE_MEAN_UNDAMPED: f64 = 1e-4;
+
+/// Cells by which a front may be early or late after 300: the lattice's own dispersion, the project's bar.
+pub const WAVE_FRONT_CELLS: f64 = 2.0;
+
+/// Energy that comes back from the sponge at normal incidence: the project's bar.
+pub const SPONGE_ENERGY: f64 = 0.01;
+
+/// Net of an impulse over its free texels, in units of its strength and for each texel: the rounding of one f32 sum.
+pub const IMPULSE_NET: f64 = 1e-7;
+
+/// A stamp against its f64 reference, in units of the largest height in play: some ten operations at 2⁻²⁴, and one division that
+/// WGSL allows 2.5 ulp. "A few ulp."
+pub const STAMP_HEIGHT: f64 = 8.0 * ULP;
+
+/// The same for many stamps on top of one another, for each of them.
+pub const STAMP_HEIGHT_EACH: f64 = 2.0 * ULP;
+
+/// Soot and bareness are unorm8: half a level, and the f32 rounding that decides which.
+pub const STAMP_MATERIAL: f64 = 0.5 / 255.0 + 1e-5;
+
+/// Volume of smooth profiles, relative: the project's bar.
+pub const STAMP_VOLUME: f64 = 1e-3;
+
+/// 4,096 stamps of radius 8 in steps of the wave at 1024²: the project's budget.
+pub const STAMP_BUDGET_STEPS: f64 = 2.0;
+
+/// Cells by which a ray's hit may be misplaced where it reaches lattice coordinate `reach`: the project's bound. f32 holds a
+/// coordinate to 2⁻²⁴ of it, and a hit is a sum and a product of a few such.
+pub fn hit_cells(reach: f64) -> f64 {
+    (8.0 * reach / f64::from(1 << 24)).max(1e-4)
+}
+
+/// Height by which the exact traversal may pass through the surface, or stop above it, where a ray grazes it: the rounding of
+/// the bilinear in f32 and its slack, some 1e-6, and what the surface rises over the misplacement of the ray.
+pub fn hit_height(cells: f64, slope: f64) -> f64 {
+    1e-5 + cells * slope
+}
+
+/// Share of random rays that may graze: one in a thousand measured on white noise.
+pub const TANGENT_SHARE: f64 = 1e-3;
+
+/// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
+pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
+
+/// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
+pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;

@@ -1,0 +1,9 @@
+//! How the field is seen.
+
+mod shadow_hard;
+mod shadow_none;
+mod shadow_pom_soft;
+mod trace_exact;
+mod trace_normal;
+mod trace_pom;
+mod traversal;
