@@ -3,14 +3,14 @@
 //   radiance  rgba16float  read   linear, unbounded; `supersampling` pixels along each side of a shown one
 //   target    sRGB         write  the format converts from linear, or the shader does where a window has no such format
 
-struct Present {
+struct PresentParams {
     supersampling: u32,
     encode: u32,        // 1: the target stores what is written; encode to sRGB here
     tone_map: u32,      // 0: show the numbers as they are
     pad: u32,
 }
 
-@group(1) @binding(0) var<uniform> params: Present;
+@group(1) @binding(0) var<uniform> params: PresentParams;
 @group(1) @binding(1) var radiance: texture_2d<f32>;
 
 @vertex

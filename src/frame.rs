@@ -133,7 +133,7 @@ impl Frame {
         let waves = match &scene.wave {
             Some(wave) => {
                 let waves = Waves::new(gpu)?;
-                let set = waves.bind(gpu, &field, wave, view::plane_size_metres(&scene));
+                let set = waves.bind(gpu, &field, wave, scene.plane_size_metres());
                 Some((waves, set))
             }
             None => None,
@@ -201,7 +201,7 @@ impl Frame {
         if let (Some((_, set)), Some(wave)) = (&mut self.waves, &scene.wave)
             && before.wave != scene.wave
         {
-            set.set_scene(gpu, &self.field, wave, view::plane_size_metres(scene));
+            set.set_scene(gpu, &self.field, wave, scene.plane_size_metres());
         }
         if before.plane != scene.plane || before.wave != scene.wave {
             self.dirty = Dirty::All;
@@ -253,7 +253,7 @@ impl Frame {
     /// The simulation's time step, seconds; none where nothing is simulated.
     pub fn step_seconds(&self) -> Option<f64> {
         let wave = self.scene.wave.as_ref()?;
-        Some(wave::step_seconds(wave, view::plane_size_metres(&self.scene)[0] / f64::from(self.scene.field.size[0])))
+        Some(wave::step_seconds(wave, self.scene.texel_metres()))
     }
 
     /// Records one frame. Where nobody looks (`target` is `None`) it only does to the layers what is to be done.

@@ -49,12 +49,16 @@
 //! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
 pub mod camera;
+pub mod cli;
 pub mod clock;
 pub mod field;
 pub mod frame;
 pub mod gpu;
+pub mod io;
+pub mod modes;
 pub mod present;
 pub mod reference;
 pub mod scene;
 pub mod stroke;
+pub mod suggest;
 pub mod surface;

@@ -3,11 +3,16 @@
 //! The same value serves panel, command line, files and tests. Files are TOML; a field that is absent has its default, a field
 //! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
 
+mod framing;
+mod validate;
+
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
+
+pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;
@@ -351,9 +356,9 @@ impl Default for Light {
             azimuth_degrees: 215.0,
             elevation_degrees: 40.0,
             colour: [1.0, 0.95, 0.88],
-            intensity: 2.2,
-            sky: [0.42, 0.52, 0.68],
-            ground: [0.16, 0.13, 0.11],
+            intensity: 1.35,
+            sky: [0.30, 0.37, 0.47],
+            ground: [0.13, 0.10, 0.08],
             turn_degrees_per_second: 0.0,
         }
     }

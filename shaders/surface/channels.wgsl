@@ -2,7 +2,7 @@
 //
 //   channels  storage, 48 bytes a pixel  write  a band of rows of the picture
 
-struct Channels {
+struct Channel {
     position: vec3f,  // world, on the ray
     steps: f32,       // −1 where the pixel shows no surface
     normal: vec3f,    // world, as shaded
@@ -15,7 +15,7 @@ struct Channels {
 override WORKGROUP_X: u32;
 override WORKGROUP_Y: u32;
 
-@group(2) @binding(0) var<storage, read_write> channels: array<Channels>;
+@group(2) @binding(0) var<storage, read_write> channels: array<Channel>;
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn write_channels(@builtin(global_invocation_id) id: vec3u) {
@@ -25,11 +25,11 @@ fn write_channels(@builtin(global_invocation_id) id: vec3u) {
     }
     let pixel = pixel_ray(vec2f(id.xy + vec2u(0u, view.first_row)) + 0.5);
     if !shows_plane(pixel) {
-        channels[index] = Channels(vec3f(0.0), -1.0, vec3f(0.0), 0.0, vec2f(0.0), 0.0, 0.0);
+        channels[index] = Channel(vec3f(0.0), -1.0, vec3f(0.0), 0.0, vec2f(0.0), 0.0, 0.0);
         return;
     }
     let shaded = shade(pixel.ray);
-    channels[index] = Channels(
+    channels[index] = Channel(
         world_of(shaded.hit.lattice, shaded.hit.height),
         f32(shaded.hit.steps),
         shaded.normal_world,

@@ -24,7 +24,7 @@ pub struct NormalsParams {
     /// 1 where the field wraps, 0 where it clamps.
     pub wrap: u32,
     /// Zero.
-    pub pad: [u32; 3],
+    pub pad: u32,
 }
 
 /// Derives unit normals from heights.
@@ -98,7 +98,7 @@ impl Normals {
                 slope_per_height,
                 size: set.size,
                 wrap: u32::from(set.addressing == Addressing::Wrap),
-                pad: [0; 3],
+                pad: 0,
             })
             .collect();
         set.params.write(recorder.gpu, &params);

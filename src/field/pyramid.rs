@@ -29,7 +29,7 @@ pub struct PyramidParams {
     /// 1 where the field wraps, 0 where it clamps.
     pub wrap: u32,
     /// Zero.
-    pub pad: [u32; 3],
+    pub pad: u32,
 }
 
 /// Rebuilds the pyramid.
@@ -136,9 +136,7 @@ fn dispatches(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> Vec<(
             regions.dedup();
         }
         dispatches.extend(
-            regions
-                .iter()
-                .map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: [0; 3] })),
+            regions.iter().map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: 0 })),
         );
         source_size = size;
     }

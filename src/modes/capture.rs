@@ -36,13 +36,9 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
     let directory = OutputDir::create(&options.out)?;
 
     let mut clock = Clock::new(frame.step_seconds());
-    let mut manifest =
-        Manifest::new(scene, &gpu.adapter.get_info(), options.common.image_size, options.dt, options.warmup);
-    let progress = progress::bar(
-        u64::from(options.warmup) + u64::from(options.frames),
-        &scene.name,
-        verbosity == Verbosity::Quiet,
-    );
+    let mut manifest = Manifest::new(scene, &gpu.adapter.get_info(), options.common.image_size, options.dt, options.warmup);
+    let progress =
+        progress::bar(u64::from(options.warmup) + u64::from(options.frames), &scene.name, verbosity == Verbosity::Quiet);
     for number in 0..u64::from(options.warmup) + u64::from(options.frames) {
         let tick = clock.advance(Pace::Fixed { dt_seconds: options.dt });
         let strokes = Strokes::of_scene(scene, scene.seed, &tick);

@@ -6,6 +6,7 @@
 pub mod compose;
 pub mod normals;
 pub mod pyramid;
+pub mod ray_map;
 pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;

@@ -5,7 +5,7 @@
 use super::{Albedo, Shadow, Technique, View, ViewSet, bind_field, constants, field_layout, parts, view};
 use crate::field::Field;
 use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, Recorder, ShaderError, Timer};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 
 /// What one pixel shows.
 #[repr(C)]
@@ -48,8 +48,7 @@ impl Channels {
         let view_layout = view::layout(gpu);
         let field_layout = field_layout(gpu);
         let output_layout = BindingLayout::new(gpu, "channels", wgpu::ShaderStages::COMPUTE, &[Binding::ReadWrite]);
-        let mut parts = parts(gpu, technique, shadow, albedo);
-        parts.push("surface/channels".to_owned());
+        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "channels");
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let mut constants = constants(albedo);
         constants.extend([("WORKGROUP_X", f64::from(Self::WORKGROUP[0])), ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1]))]);
@@ -73,7 +72,7 @@ impl Channels {
 
     /// Writes rows `first_row..first_row + rows` of the picture that `view` describes, submits the work, and returns the
     /// [`Channel`]s on their way: the caller polls the device.
-    pub fn request(&self, gpu: &Gpu, field: &Field, view: &View, timer: &Timer, first_row: u32, rows: u32) -> Readback {
+    pub fn request(&self, gpu: &Gpu, field: &Field, view: &View, first_row: u32, rows: u32) -> Readback {
         let view_set = ViewSet::new(gpu, &self.view_layout, field.addressing);
         view_set.uniform.write(gpu, &View { first_row, ..*view });
         let bytes = u64::from(view.image_size[0]) * u64::from(rows) * size_of::<Channel>() as u64;
@@ -86,14 +85,16 @@ impl Channels {
         let field_group = bind_field(gpu, &self.field_layout, field);
         let output = self.output_layout.bind(gpu, &[buffer.as_entire_binding()]);
         let mut encoder = gpu.encoder("channels");
-        Recorder { gpu, encoder: &mut encoder, timer }.compute("channels", |pass| {
+        {
+            let mut pass =
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("channels"), timestamp_writes: None });
             let [x, y] = workgroups([view.image_size[0], rows], Self::WORKGROUP);
             pass.set_pipeline(&self.kernel.pipeline);
             pass.set_bind_group(0, &view_set.group, &[]);
             pass.set_bind_group(1, &field_group, &[]);
             pass.set_bind_group(2, &output, &[]);
             pass.dispatch_workgroups(x, y, 1);
-        });
+        }
         let readback = Readback::record_buffer(gpu, &mut encoder, &buffer, bytes);
         gpu.queue.submit([encoder.finish()]);
         readback.start();

@@ -17,10 +17,11 @@ pub use view::{View, ViewSet};
 use crate::field;
 use crate::gpu::{Binding, BindingLayout, Gpu};
 
-/// The WGSL parts that everything that traces is composed of, before its entry points.
-pub(crate) fn parts(gpu: &Gpu, technique: Technique, shadow: Shadow, albedo: Albedo) -> Vec<String> {
-    let sampled = if gpu.filters_r32float() { "common/height_filtered" } else { "common/height_loaded" };
-    let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade"];
+/// The WGSL parts of everything that traces, `entry` being the part with its entry points. `filters_r32float` says whether the
+/// adapter does.
+pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albedo: Albedo, entry: &str) -> Vec<String> {
+    let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
+    let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
     let mut parts: Vec<String> =
         ["common/view", "common/noise", "surface/ray", "common/field", sampled, "surface/ray_map", "surface/traversal"]
             .map(str::to_owned)

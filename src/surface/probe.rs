@@ -72,8 +72,7 @@ impl Probe {
             wgpu::ShaderStages::COMPUTE,
             &[Binding::Read, Binding::ReadWrite, Binding::ReadWrite],
         );
-        let mut parts = parts(gpu, technique, shadow, Albedo::Plain);
-        parts.push("surface/probe".to_owned());
+        let parts = parts(gpu.filters_r32float(), technique, shadow, Albedo::Plain, "probe");
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let groups = [Some(&view_layout), Some(&field_layout), Some(&list_layout)];
         let kernel =

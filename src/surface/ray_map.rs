@@ -9,6 +9,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
+use super::probe::Ray;
 use crate::camera::Camera;
 
 /// A linear form of the pixel, a·x + b·y + c, split in two. Twin of the WGSL struct in `shaders/common/view.wgsl`.
@@ -76,6 +77,20 @@ impl RayMap {
     }
 }
 
+/// The ray in field space through a point of the picture, for a pointer; none where it does not look down upon the plane.
+pub fn pixel_ray(camera: &Camera, image_size: [u32; 2], target: &Target, pixel: [f64; 2]) -> Option<Ray> {
+    let forms = exact_forms(camera, image_size, target);
+    let pixel = DVec3::new(pixel[0], pixel[1], 1.0);
+    let denominator = forms.denominator.dot(pixel);
+    let at = |form: DVec3| (form.dot(pixel) / denominator) as f32;
+    (denominator > 0.0 && camera.eye().y > 0.0).then(|| Ray {
+        lattice: forms.lattice.map(at),
+        travel: forms.travel.map(at),
+        height: 1.0,
+        rise: -1.0,
+    })
+}
+
 /// The coefficients of a [`RayMap`], in f64: each a vector that is multiplied with (x, y, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactForms {
@@ -95,7 +110,11 @@ pub fn exact_forms(camera: &Camera, image_size: [u32; 2], target: &Target) -> Ex
     let view_from_pixel = DMat3::from_cols(
         DVec3::new(2.0 * half_height / height, 0.0, 0.0),
         DVec3::new(0.0, -2.0 * half_height / height, 0.0),
-        DVec3::new(-half_height * width / height, half_height, -1.0),
+        DVec3::new(
+            -half_height * width / height - 2.0 * half_height * camera.lens_shift.x,
+            half_height + 2.0 * half_height * camera.lens_shift.y,
+            -1.0,
+        ),
     );
     let world_from_pixel = (DMat3::from_mat4(camera.world_from_view) * view_from_pixel).transpose();
     let (x, y, z) = (world_from_pixel.x_axis, world_from_pixel.y_axis, world_from_pixel.z_axis);

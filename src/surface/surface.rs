@@ -46,8 +46,7 @@ impl Surface {
         albedo: Albedo,
     ) -> Result<Self, ShaderError> {
         let layout = field_layout(gpu);
-        let mut parts = parts(gpu, technique, shadow, albedo);
-        parts.push("surface/surface".to_owned());
+        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "surface");
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let module = gpu.shaders.module(gpu, "surface", &parts)?;
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

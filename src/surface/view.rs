@@ -49,16 +49,10 @@ pub struct View {
     pub first_row: u32,
 }
 
-/// Extent of the scene's plane along x and z, metres: texels are square.
-pub fn plane_size_metres(scene: &Scene) -> [f64; 2] {
-    let width = f64::from(scene.plane.width_metres);
-    [width, width * f64::from(scene.field.size[1]) / f64::from(scene.field.size[0])]
-}
-
 impl View {
     /// What `camera` sees of `scene` at a time, in a picture of `image_size` traced pixels.
     pub fn new(scene: &Scene, camera: &Camera, time_seconds: f64, image_size: [u32; 2], shows: Shows) -> Self {
-        let plane_size = plane_size_metres(scene);
+        let plane_size = scene.plane_size_metres();
         let depth_metres = f64::from(scene.plane.depth_metres);
         let rays = RayMap::new(
             camera,
@@ -66,7 +60,7 @@ impl View {
             &Target { field_size: scene.field.size, plane_size_metres: plane_size, depth_metres },
         );
         let light = light_direction(scene, time_seconds);
-        let texel_metres = plane_size[0] / f64::from(scene.field.size[0]);
+        let texel_metres = scene.texel_metres();
         let light_is_up = light.y > 1e-4;
         let climb = if light_is_up { depth_metres / light.y / texel_metres } else { 0.0 };
         Self {

@@ -7,7 +7,7 @@ use rilievo::reference::Addressing;
 use rilievo::reference::compose::compose;
 
 use crate::support::fields::Random;
-use crate::support::gpu::{gpu, read, run};
+use crate::support::gpu::{gpu, read, run, wait_for};
 use crate::support::tolerances;
 
 const SIZES: [[u32; 2]; 6] = [[1, 1], [1, 40], [33, 1], [16, 16], [17, 31], [130, 67]];
@@ -54,8 +54,8 @@ fn composed(gpu: &Gpu, size: [u32; 2], relief: &[f32], wave: &[f32], amplitude: 
     });
     counts.start();
     let heights = read(gpu, &field.height);
-    let counts = counts.take().expect("the device was polled since").expect("the device is there");
-    (heights, bytemuck::pod_collect_to_vec::<u8, u32>(&counts).iter().sum())
+    let counts: Vec<u32> = bytemuck::pod_collect_to_vec(&wait_for(gpu, &counts));
+    (heights, counts.iter().sum())
 }
 
 #[test]

@@ -3,3 +3,5 @@
 mod compose;
 mod normals;
 mod pyramid;
+mod stamp;
+mod wave;

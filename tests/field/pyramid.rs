@@ -8,7 +8,7 @@ use rilievo::reference::pyramid::{Level, pyramid};
 use rilievo::reference::{Addressing, HeightField};
 
 use crate::support::fields::{ADDRESSINGS, Kind, Random};
-use crate::support::gpu::{gpu, run};
+use crate::support::gpu::{gpu, run, wait_for};
 
 /// Every level of the pyramids of these fields, all in one submission: what costs is waiting.
 fn built(gpu: &Gpu, kernel: &Pyramid, fields: &[HeightField]) -> Vec<Vec<Level>> {
@@ -29,8 +29,7 @@ fn built(gpu: &Gpu, kernel: &Pyramid, fields: &[HeightField]) -> Vec<Vec<Level>>
         }
         readbacks
     });
-    arrived(gpu, readbacks.iter().flatten());
-    textures.iter().zip(readbacks).map(|(textures, readbacks)| levels(textures.size, readbacks)).collect()
+    textures.iter().zip(readbacks).map(|(textures, readbacks)| levels(gpu, textures.size, &readbacks)).collect()
 }
 
 fn record_levels(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, field: &Field) -> Vec<Readback> {
@@ -38,15 +37,11 @@ fn record_levels(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, field: &Field) -
     (0..levels).map(|level| Readback::record_texture(gpu, encoder, &field.pyramid.texture, level)).collect()
 }
 
-fn arrived<'a>(gpu: &Gpu, readbacks: impl Iterator<Item = &'a Readback>) {
-    readbacks.for_each(Readback::start);
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("waiting without a limit does not time out");
-}
-
-fn levels(size: [u32; 2], readbacks: Vec<Readback>) -> Vec<Level> {
-    let level = |(level, readback): (u32, Readback)| {
-        let bytes = readback.take().expect("the device was polled").expect("the device is there");
-        Level { size: size.map(|size| (size >> level).max(1)), bounds: bytemuck::pod_collect_to_vec(&bytes) }
+fn levels(gpu: &Gpu, size: [u32; 2], readbacks: &[Readback]) -> Vec<Level> {
+    readbacks.iter().for_each(Readback::start);
+    let level = |(level, readback)| Level {
+        size: size.map(|size| (size >> level).max(1)),
+        bounds: bytemuck::pod_collect_to_vec(&wait_for(gpu, readback)),
     };
     (0..).zip(readbacks).map(level).collect()
 }
@@ -127,8 +122,7 @@ fn a_dirty_update_equals_a_full_rebuild() {
                     kernel.record(recorder, &set, &cells);
                     record_levels(gpu, recorder.encoder, &textures)
                 });
-                arrived(gpu, readbacks.iter());
-                assert!(levels(size, readbacks) == pyramid(&field), "{size:?} {addressing:?} {origin:?} {extent:?}");
+                assert!(levels(gpu, size, &readbacks) == pyramid(&field), "{size:?} {addressing:?} {origin:?} {extent:?}");
             }
         }
     }

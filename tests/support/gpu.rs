@@ -45,12 +45,22 @@ pub fn read<R: Role, T: bytemuck::Pod>(gpu: &Gpu, texture: &Texture<R>) -> Vec<T
     let readback = Readback::record_texture(gpu, &mut encoder, &texture.texture, 0);
     gpu.queue.submit([encoder.finish()]);
     readback.start();
-    wait(gpu);
-    let bytes = readback.take().expect("the device was polled until it was done").expect("the device is there");
-    bytemuck::pod_collect_to_vec(&bytes)
+    bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback))
 }
 
 fn wait(gpu: &Gpu) {
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("waiting without a limit does not time out");
     assert_eq!(gpu.take_error(), None);
+}
+
+/// The bytes of a readback that was started.
+pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Vec<u8> {
+    loop {
+        wait(gpu);
+        // Another test's thread may have polled in between and be about to run this readback's callback.
+        if let Some(bytes) = readback.take() {
+            return bytes.expect("the device is there");
+        }
+        std::thread::yield_now();
+    }
 }

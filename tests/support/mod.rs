@@ -1,5 +1,7 @@
 //! What many tests need.
 
+#[cfg(target_os = "linux")]
+pub mod desktop;
 pub mod fields;
 pub mod gpu;
 pub mod rays;

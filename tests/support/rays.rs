@@ -8,7 +8,7 @@ use rilievo::surface::probe::Hit;
 use rilievo::surface::{Probe, Shadow, Technique, View};
 
 use super::fields::Random;
-use super::gpu::run;
+use super::gpu::{run, wait_for};
 
 /// A field on the GPU, heights and bounds.
 pub fn upload(gpu: &Gpu, field: &HeightField) -> Field {
@@ -41,18 +41,14 @@ pub fn view(field: &HeightField) -> View {
 pub fn trace(gpu: &Gpu, technique: Technique, field: &Field, view: &View, rays: &[Ray]) -> Vec<Hit> {
     let probe = Probe::new(gpu, technique, Shadow::None).expect("the shader compiles");
     let readback = probe.trace(gpu, field, view, rays);
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("waiting without a limit does not time out");
-    let bytes = readback.take().expect("the device was polled until it was done").expect("the device is there");
-    bytemuck::pod_collect_to_vec(&bytes)
+    bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback))
 }
 
 /// The visibility at the start of the rays.
 pub fn shadow(gpu: &Gpu, shadow: Shadow, field: &Field, view: &View, rays: &[Ray]) -> Vec<f32> {
     let probe = Probe::new(gpu, Technique::Normal, shadow).expect("the shader compiles");
     let readback = probe.shadow(gpu, field, view, rays);
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("waiting without a limit does not time out");
-    let bytes = readback.take().expect("the device was polled until it was done").expect("the device is there");
-    bytemuck::pod_collect_to_vec(&bytes)
+    bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback))
 }
 
 /// Kinds of rays that break what is nearly right.

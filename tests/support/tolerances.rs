@@ -47,10 +47,13 @@ pub const STAMP_VOLUME: f64 = 1e-3;
 /// 4,096 stamps of radius 8 in steps of the wave at 1024²: the project's budget.
 pub const STAMP_BUDGET_STEPS: f64 = 2.0;
 
-/// Cells by which a ray's hit may be misplaced where it reaches lattice coordinate `reach`: the project's bound. f32 holds a
-/// coordinate to 2⁻²⁴ of it, and a hit is a sum and a product of a few such.
-pub fn hit_cells(reach: f64) -> f64 {
-    (8.0 * reach / f64::from(1 << 24)).max(1e-4)
+/// Precision that a lattice position has at the least, cells.
+pub const LATTICE_FLOOR: f64 = 1e-4;
+
+/// Precision of lattice positions, cells, where the largest coordinate that the ray reaches is `largest`: eight roundings of f32
+/// there, and no less than [`LATTICE_FLOOR`].
+pub fn lattice_bound(largest: f64) -> f64 {
+    LATTICE_FLOOR.max(8.0 * 2f64.powi(-24) * largest)
 }
 
 /// Height by which the exact traversal may pass through the surface, or stop above it, where a ray grazes it: the rounding of
@@ -59,8 +62,8 @@ pub fn hit_height(cells: f64, slope: f64) -> f64 {
     1e-5 + cells * slope
 }
 
-/// Share of random rays that may graze: one in a thousand measured on white noise.
-pub const TANGENT_SHARE: f64 = 1e-3;
+/// Share of random rays that may graze so closely that rounding decides: thirty times what was measured, three in a million.
+pub const TANGENT_SHARE: f64 = 1e-4;
 
 /// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
 pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;

@@ -1,5 +1,6 @@
-//! How the field is seen.
+//! How it is seen.
 
+mod ray_map;
 mod shadow_hard;
 mod shadow_none;
 mod shadow_pom_soft;

@@ -67,7 +67,7 @@ fn judge(field: &HeightField, ray: &Ray, hit: &Hit) -> Judgement {
     let t = f64::from(hit.t);
 
     let reach = [ray.lattice.map(f64::from), here, there].iter().flatten().fold(0.0_f64, |reach, x| reach.max(x.abs()));
-    let cells = tolerances::hit_cells(reach);
+    let cells = tolerances::lattice_bound(reach);
     if distance(here, line.lattice_at(t)) > cells {
         return Judgement::Wrong("the hit is not on its ray".to_owned());
     }

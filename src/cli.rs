@@ -1,0 +1,506 @@
+//! Arguments to [`Command`]: pure, no file is opened and nothing is printed here.
+//!
+//! What can be refused by reading the arguments alone is refused here, in one sentence ([`Refusal`]), with exit code 2. Names of
+//! scenes are content, not arguments: `io::scene_file` refuses those.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Args, Parser, Subcommand};
+
+use crate::gpu::Preference;
+use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
+use crate::scene;
+use crate::suggest;
+use crate::surface::{Shadow, Technique};
+
+/// What the user asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// A window.
+    Live(LiveOptions),
+    /// Pictures and channels, to files.
+    Capture(CaptureOptions),
+    /// Numbers.
+    Stress(StressOptions),
+    /// The list of GPU adapters.
+    Adapters(AdaptersOptions),
+    /// The list of scenes.
+    Scenes,
+}
+
+impl Command {
+    /// How much it shall tell of itself on stderr.
+    pub fn verbosity(&self) -> Verbosity {
+        match self {
+            Self::Live(options) => options.common.machine.verbosity(),
+            Self::Capture(options) => options.common.machine.verbosity(),
+            Self::Stress(options) => options.common.machine.verbosity(),
+            Self::Adapters(options) => options.machine.verbosity(),
+            Self::Scenes => Verbosity::Normal,
+        }
+    }
+}
+
+/// How much the program tells of itself on stderr.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verbosity {
+    /// Errors only.
+    Quiet,
+    /// Notes and warnings.
+    Normal,
+    /// Its own details, and other crates' warnings.
+    Verbose,
+}
+
+/// What every mode that shows a scene takes.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct CommonOptions {
+    /// A scene's name, or a file that ends in .toml or lies behind a path
+    #[arg(long, value_name = "NAME|FILE.toml", default_value = "ripples", help_heading = "Scene")]
+    pub scene: String,
+
+    #[arg(long, value_name = "T", value_parser = technique, help = technique_help(), help_heading = "Scene")]
+    technique: Option<Technique>,
+
+    #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
+    shadow: Option<Shadow>,
+
+    /// Seed of everything random [default: the scene's]
+    #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
+    seed: Option<u64>,
+
+    /// Size of the picture or window, pixels
+    #[arg(long = "size", value_name = "WxH", value_parser = size, default_value = "960x600", allow_negative_numbers = true)]
+    pub image_size: [u32; 2],
+
+    /// Size of the height field, texels; N alone keeps the aspect of an image [default: the image's, or else the scene's]
+    #[arg(long, value_name = "N|WxH", value_parser = field, allow_negative_numbers = true, help_heading = "Scene")]
+    field: Option<FieldSize>,
+
+    /// A PNG or EXR file whose heights replace the scene's starting height [default: none, the scene's own]
+    #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
+    height: Option<PathBuf>,
+
+    /// The values in the image that become heights 0 and 1 [default: 0,1]
+    #[arg(long, value_name = "LO,HI", value_parser = height_range, allow_hyphen_values = true, help_heading = "Scene")]
+    height_range: Option<[f32; 2]>,
+
+    /// Depth of height 0 below the plane, metres [default: the scene's]
+    #[arg(long, value_name = "METRES", value_parser = depth, allow_negative_numbers = true, help_heading = "Scene")]
+    depth: Option<f32>,
+
+    /// Eye and target, metres; replaces every camera motion [default: the scene's, which shows the whole plane]
+    #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ", value_parser = camera, allow_hyphen_values = true, help_heading = "Scene")]
+    camera: Option<CameraPlacement>,
+
+    /// Vertical field of view, degrees [default: the scene's, 45 unless its file says otherwise]
+    #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
+    fov: Option<f64>,
+
+    /// Which machine, and how much it tells.
+    #[command(flatten)]
+    pub machine: MachineOptions,
+}
+
+impl CommonOptions {
+    /// What the arguments change in the scene.
+    pub fn overrides(&self) -> SceneOverrides {
+        SceneOverrides {
+            height: self.height.clone(),
+            height_range: self.height_range,
+            field: self.field,
+            depth_metres: self.depth,
+            technique: self.technique,
+            shadow: self.shadow,
+            seed: self.seed,
+            camera: self.camera,
+            vertical_fov_degrees: self.fov,
+        }
+    }
+}
+
+/// Which adapter, and how much to tell.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct MachineOptions {
+    /// Use the adapter whose name contains this, in any case [default: $WGPU_ADAPTER_NAME, or else the best there is]
+    #[arg(long, value_name = "SUBSTRING", value_parser = non_empty, help_heading = "Machine")]
+    pub adapter: Option<String>,
+
+    /// vulkan, metal, dx12 or gl [default: $WGPU_BACKEND, or else all of them]
+    #[arg(long, value_name = "BACKEND", value_parser = backend, help_heading = "Machine")]
+    pub backend: Option<wgpu::Backends>,
+
+    /// Tell more on stderr; $RUST_LOG chooses freely [default: notes and warnings]
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "Machine")]
+    verbose: bool,
+
+    /// Tell nothing on stderr but errors [default: notes and warnings]
+    #[arg(short, long, help_heading = "Machine")]
+    quiet: bool,
+}
+
+impl MachineOptions {
+    /// The adapters that may be used, hardware first; the environment completes what the arguments leave open.
+    pub fn preference(&self) -> Preference {
+        Preference { name: self.adapter.clone(), backend: self.backend, ..Preference::default() }.with_environment()
+    }
+
+    fn verbosity(&self) -> Verbosity {
+        match (self.quiet, self.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (_, true) => Verbosity::Verbose,
+            _ => Verbosity::Normal,
+        }
+    }
+}
+
+/// `rilievo live`.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct LiveOptions {
+    /// What every mode takes.
+    #[command(flatten)]
+    pub common: CommonOptions,
+
+    /// Run this many frames at a fixed step of 1/60 s, then exit [default: none, until the window is closed]
+    #[arg(long, value_name = "N", value_parser = frames, requires = "out", allow_negative_numbers = true)]
+    pub frames: Option<u32>,
+
+    /// Write the last of those frames here, as capture would [default: none, nothing is written]
+    #[arg(long, value_name = "DIR", requires = "frames")]
+    pub out: Option<PathBuf>,
+}
+
+/// `rilievo capture`.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct CaptureOptions {
+    /// What every mode takes.
+    #[command(flatten)]
+    pub common: CommonOptions,
+
+    /// The directory to write to; frames, fields and the manifest of an earlier run are removed from it
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// How many frames to write
+    #[arg(long, value_name = "N", value_parser = frames, default_value = "1", allow_negative_numbers = true)]
+    pub frames: u32,
+
+    /// Time from frame to frame, seconds [default: 1/60]
+    #[arg(long, value_name = "SECONDS", value_parser = dt, default_value = "0.016666666666666666", hide_default_value = true)]
+    #[arg(allow_negative_numbers = true)]
+    pub dt: f64,
+
+    /// How many frames to run before the first that is written
+    #[arg(long, value_name = "N", value_parser = whole_u32, default_value = "0", allow_negative_numbers = true)]
+    pub warmup: u32,
+
+    /// Which channels to write, of color, position, normal, uv, height, visibility, steps and lod; color always is
+    #[arg(long, value_name = "LIST", value_parser = channel, value_delimiter = ',', default_value = "color")]
+    channels: Vec<Channel>,
+}
+
+impl CaptureOptions {
+    /// Whether this channel was asked for. Colour always is.
+    pub fn wants(&self, channel: Channel) -> bool {
+        channel == Channel::Color || self.channels.contains(&channel)
+    }
+
+    /// The channels to write, each once, in the order of [`Channel::ALL`].
+    pub fn channels(&self) -> Vec<Channel> {
+        Channel::ALL.iter().copied().filter(|&channel| self.wants(channel)).collect()
+    }
+}
+
+/// What can be captured of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Channel {
+    /// The picture.
+    Color,
+    /// World position, metres.
+    Position,
+    /// World normal, as shaded.
+    Normal,
+    /// Texture coordinates, not wrapped.
+    Uv,
+    /// Height at the point that is seen, and the height field itself.
+    Height,
+    /// How much of the light arrives.
+    Visibility,
+    /// Height samples and nodes visited.
+    Steps,
+    /// Level of detail.
+    Lod,
+}
+
+impl Channel {
+    /// All of them, in the order of the documentation.
+    pub const ALL: [Self; 8] =
+        [Self::Color, Self::Position, Self::Normal, Self::Uv, Self::Height, Self::Visibility, Self::Steps, Self::Lod];
+
+    /// Its name on the command line and in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Color => "color",
+            Self::Position => "position",
+            Self::Normal => "normal",
+            Self::Uv => "uv",
+            Self::Height => "height",
+            Self::Visibility => "visibility",
+            Self::Steps => "steps",
+            Self::Lod => "lod",
+        }
+    }
+}
+
+/// `rilievo stress`.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct StressOptions {
+    /// What every mode takes.
+    #[command(flatten)]
+    pub common: CommonOptions,
+
+    /// How many frames to measure
+    #[arg(long, value_name = "N", value_parser = frames, default_value = "60", allow_negative_numbers = true)]
+    pub frames: u32,
+
+    /// How many seeded discs to stamp each frame
+    #[arg(long, value_name = "K", value_parser = whole_u32, default_value = "0", allow_negative_numbers = true)]
+    pub stamps: u32,
+
+    /// Their radius, texels
+    #[arg(long, value_name = "TEXELS", value_parser = stamp_radius, default_value = "8", allow_negative_numbers = true)]
+    pub stamp_radius: f32,
+
+    /// Also write the numbers here [default: none, they are only printed]
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+/// `rilievo adapters`.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct AdaptersOptions {
+    /// Which of them, and how much to tell.
+    #[command(flatten)]
+    pub machine: MachineOptions,
+}
+
+/// A GPU laboratory for height fields that move.
+///
+/// Simulates, stamps, derives, traces and shows a height field, every frame. Without a mode it opens a window.
+#[derive(Parser, Debug)]
+#[command(name = "rilievo", version, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(subcommand)]
+    mode: Option<Mode>,
+    #[command(flatten)]
+    live: LiveOptions,
+}
+
+// One value exists, for as long as parsing takes: a box would only add noise.
+#[expect(clippy::large_enum_variant)]
+#[derive(Subcommand, Debug)]
+enum Mode {
+    /// Show a scene in a window (the default)
+    Live(LiveOptions),
+    /// Write pictures and channels to files, without a window
+    Capture(CaptureOptions),
+    /// Measure frames, without a window
+    Stress(StressOptions),
+    /// List the GPU adapters
+    Adapters(AdaptersOptions),
+    /// List the scenes
+    Scenes,
+}
+
+/// Why there is no command to run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// Help or the version was asked for: print this on stdout, exit with 0.
+    Told(String),
+    /// The arguments make no sense: print this sentence on stderr, exit with 2.
+    Refused(String),
+}
+
+/// Reads the arguments, the program's own name first.
+pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Refusal> {
+    let arguments = Arguments::try_parse_from(arguments).map_err(|error| match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Told(error.render().to_string()),
+        _ => Refusal::Refused(sentence(&error)),
+    })?;
+    Ok(match arguments.mode {
+        None => Command::Live(arguments.live),
+        Some(Mode::Live(options)) => Command::Live(options),
+        Some(Mode::Capture(options)) => Command::Capture(options),
+        Some(Mode::Stress(options)) => Command::Stress(options),
+        Some(Mode::Adapters(options)) => Command::Adapters(options),
+        Some(Mode::Scenes) => Command::Scenes,
+    })
+}
+
+/// clap explains in paragraphs; here is the same in one sentence.
+fn sentence(error: &clap::Error) -> String {
+    let text = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.clone()),
+        Some(ContextValue::Strings(texts)) => Some(texts.join("`, `")),
+        _ => None,
+    };
+    let argument = text(ContextKind::InvalidArg).unwrap_or_default();
+    let value = text(ContextKind::InvalidValue).unwrap_or_default();
+    match error.kind() {
+        ErrorKind::UnknownArgument => match text(ContextKind::SuggestedArg) {
+            Some(near) => format!("unknown argument `{argument}`: did you mean `{near}`, of those that `--help` lists?"),
+            None => format!("unknown argument `{argument}`: `--help` lists those there are"),
+        },
+        ErrorKind::InvalidSubcommand => {
+            let name = text(ContextKind::InvalidSubcommand).unwrap_or_default();
+            suggest::unknown("mode", &name, &["live", "capture", "stress", "adapters", "scenes"])
+        }
+        ErrorKind::ValueValidation => {
+            let cause = std::error::Error::source(error).map(ToString::to_string).unwrap_or_default();
+            format!("`{argument}` cannot be `{value}`: {cause}")
+        }
+        ErrorKind::InvalidValue => format!("`{argument}` needs a value"),
+        ErrorKind::MissingRequiredArgument => format!("`{argument}` is missing: `--help` says what it is for"),
+        ErrorKind::ArgumentConflict => match text(ContextKind::PriorArg) {
+            Some(prior) if prior == argument => format!("`{argument}` is given twice: give it once"),
+            Some(prior) => format!("`{argument}` and `{prior}` exclude each other: give one of them"),
+            None => format!("`{argument}` stands before the mode: write the mode first, as in `rilievo capture --out DIR`"),
+        },
+        // Every other kind is rare; its first line is a sentence already.
+        _ => {
+            let rendered = error.render().to_string();
+            let line = rendered.lines().next().unwrap_or_default();
+            line.strip_prefix("error: ").unwrap_or(line).to_owned()
+        }
+    }
+}
+
+fn technique_help() -> String {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    format!("How the surface is traced: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+fn shadow_help() -> String {
+    let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
+    format!("The shadow upon it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+fn technique(text: &str) -> Result<Technique, String> {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    Technique::from_name(text).ok_or_else(|| suggest::unknown("technique", text, &names))
+}
+
+fn shadow(text: &str) -> Result<Shadow, String> {
+    let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
+    Shadow::from_name(text).ok_or_else(|| suggest::unknown("shadow", text, &names))
+}
+
+fn channel(text: &str) -> Result<Channel, String> {
+    let names = Channel::ALL.map(Channel::name);
+    let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
+    found.ok_or_else(|| suggest::unknown("channel", text, &names))
+}
+
+fn backend(text: &str) -> Result<wgpu::Backends, String> {
+    match text {
+        "vulkan" => Ok(wgpu::Backends::VULKAN),
+        "metal" => Ok(wgpu::Backends::METAL),
+        "dx12" => Ok(wgpu::Backends::DX12),
+        "gl" => Ok(wgpu::Backends::GL),
+        _ => Err(suggest::unknown("backend", text, &["vulkan", "metal", "dx12", "gl"])),
+    }
+}
+
+fn non_empty(text: &str) -> Result<String, String> {
+    if text.is_empty() { Err("it is empty".to_owned()) } else { Ok(text.to_owned()) }
+}
+
+fn whole_u64(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("it must be a whole number from 0 to {}", u64::MAX))
+}
+
+fn whole_u32(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| format!("it must be a whole number from 0 to {}", u32::MAX))
+}
+
+fn positive_u32(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err(format!("it must be a whole number from 1 to {}", u32::MAX)),
+    }
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    positive_u32(text)
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X']).map(|(width, height)| (positive_u32(width), positive_u32(height)));
+    match sides {
+        Some((Ok(width), Ok(height))) => Ok([width, height]),
+        _ => Err("it must be a width and a height of at least 1, like 640x480".to_owned()),
+    }
+}
+
+fn field(text: &str) -> Result<FieldSize, String> {
+    if let Ok(width) = positive_u32(text) {
+        return Ok(FieldSize::Width(width));
+    }
+    size(text)
+        .map(FieldSize::Exactly)
+        .map_err(|_| "it must be a width like 512, or a size like 1024x512, of at least 1".to_owned())
+}
+
+/// Finite numbers between commas, exactly `N` of them.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|part| part.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
+    numbers?.try_into().ok()
+}
+
+/// One finite number within a range that excludes its lower end where that is 0.
+fn number_within(text: &str, range: scene::Range) -> Result<f64, String> {
+    match numbers::<1>(text) {
+        Some([number]) if range.contains(number) => Ok(number),
+        _ => Err(format!("it must be {range}")),
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "metres and texels are f32 throughout")]
+fn depth(text: &str) -> Result<f32, String> {
+    number_within(text, scene::DEPTH_METRES).map(|number| number as f32)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "metres and texels are f32 throughout")]
+fn stamp_radius(text: &str) -> Result<f32, String> {
+    number_within(text, scene::Range::above(0.0, 65536.0, "texels")).map(|number| number as f32)
+}
+
+fn fov(text: &str) -> Result<f64, String> {
+    number_within(text, scene::VERTICAL_FOV_DEGREES)
+}
+
+fn dt(text: &str) -> Result<f64, String> {
+    // An hour a frame: beyond it a simulation that keeps its own step would seem to hang.
+    number_within(text, scene::Range::above(0.0, 3600.0, "seconds"))
+}
+
+fn height_range(text: &str) -> Result<[f32; 2], String> {
+    #[expect(clippy::cast_possible_truncation, reason = "images are read as f32")]
+    let range = numbers::<2>(text).map(|range| range.map(|bound| bound as f32));
+    match range {
+        Some([low, high]) if low < high && (high - low).is_finite() => Ok([low, high]),
+        Some(_) => Err("the first number must be less than the second".to_owned()),
+        None => Err("it must be two numbers, like 0,1000".to_owned()),
+    }
+}
+
+fn camera(text: &str) -> Result<CameraPlacement, String> {
+    let Some([ex, ey, ez, tx, ty, tz]) = numbers::<6>(text) else {
+        return Err("it must be six numbers, eye and target in metres, like 0,1,1,0,0,0".to_owned());
+    };
+    let camera = CameraPlacement { eye: [ex, ey, ez], target: [tx, ty, tz] };
+    scene::check_camera(camera.eye, camera.target).map(|()| camera)
+}

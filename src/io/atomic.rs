@@ -1,0 +1,132 @@
+//! A file is written whole or not at all: beside its place first, then renamed into it.
+
+use std::fs::File;
+use std::io::{BufWriter, ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+/// Why a file or directory could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {}", path.display(), explain(cause))]
+pub struct WriteError {
+    /// What was to be written.
+    pub path: PathBuf,
+    /// Why it was not.
+    pub cause: std::io::Error,
+}
+
+impl WriteError {
+    /// What could not be written, and why.
+    pub fn new(path: impl Into<PathBuf>, cause: std::io::Error) -> Self {
+        Self { path: path.into(), cause }
+    }
+}
+
+/// The cause in words, and what to do about it.
+fn explain(error: &std::io::Error) -> String {
+    let advice = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+            "the disk is full: free some space or write elsewhere"
+        }
+        ErrorKind::PermissionDenied => "permission denied: choose a place that you may write to",
+        ErrorKind::ReadOnlyFilesystem => "the file system is read-only: choose another place",
+        ErrorKind::NotFound => "the directory does not exist: make it first or choose another place",
+        ErrorKind::NotADirectory => "a part of the path is a file, not a directory: choose another place",
+        ErrorKind::IsADirectory => "it is a directory: choose another name",
+        ErrorKind::AlreadyExists => "a file is in its place: remove it or choose another place",
+        _ => return error.to_string(),
+    };
+    advice.to_owned()
+}
+
+/// Writes `path` whole or not at all with `fill`.
+///
+/// # Errors
+///
+/// The file cannot be made, filled or renamed; then nothing is left of it, and what was in its place stays.
+pub fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>) -> Result<(), WriteError> {
+    write_inner(path, fill).map_err(|error| WriteError::new(path, error))
+}
+
+fn write_inner(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>) -> std::io::Result<()> {
+    if path.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    // Named after its place: should the machine fail meanwhile, the next run knows the remains as its own and removes them.
+    let mut prefix = path.file_name().unwrap_or_default().to_os_string();
+    prefix.push(".partial-");
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix);
+    // A temporary file is its owner's alone by default; this one becomes a common file under the user's umask.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(directory).map_err(|error| match error.get_ref() {
+        // The temporary name means nothing to anyone: keep the kind alone.
+        Some(_) => error.kind().into(),
+        None => error,
+    })?;
+    let mut writer = BufWriter::with_capacity(1 << 16, file.as_file_mut());
+    fill(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    file.persist(path).map(drop).map_err(|error| error.error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_failure_leaves_nothing_and_keeps_what_was_there() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("a.txt");
+        write(&path, |file| file.write_all(b"first")).unwrap();
+        let error = write(&path, |file| {
+            file.write_all(&[b'x'; 1 << 20])?;
+            Err(ErrorKind::StorageFull.into())
+        })
+        .unwrap_err()
+        .to_string();
+        assert!(error.contains("a.txt") && error.contains("disk is full"), "{error}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"first");
+        assert_eq!(names(directory.path()), ["a.txt"]);
+        write(&path, |file| file.write_all(b"second")).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+    }
+
+    #[test]
+    fn errors_name_the_file_and_what_to_do() {
+        let directory = tempfile::tempdir().unwrap();
+        let missing = directory.path().join("no/such/a.txt");
+        let error = write(&missing, |_| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("a.txt") && error.contains("does not exist"), "{error}");
+        assert!(!error.contains("partial"), "{error}");
+
+        let file = directory.path().join("file");
+        std::fs::write(&file, "").unwrap();
+        let error = write(&file.join("a.txt"), |_| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("not a directory"), "{error}");
+
+        let error = write(directory.path(), |_| Ok(())).unwrap_err().to_string();
+        assert!(error.contains("it is a directory"), "{error}");
+        assert_eq!(names(directory.path()), ["file"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_is_as_readable_as_any_other() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let directory = tempfile::tempdir().unwrap();
+        write(&directory.path().join("ours"), |_| Ok(())).unwrap();
+        std::fs::write(directory.path().join("common"), "").unwrap();
+        let mode = |name| std::fs::metadata(directory.path().join(name)).unwrap().permissions().mode();
+        assert_eq!(mode("ours"), mode("common"));
+    }
+}

@@ -1,0 +1,25 @@
+//! Files: height images and scenes in; pictures, channels and the manifest out.
+
+pub mod atomic;
+pub mod exr_file;
+pub mod height_image;
+pub mod manifest;
+pub mod output_dir;
+pub mod png_file;
+mod resample;
+pub mod scene_file;
+
+use std::io::Write as _;
+
+/// Prints to stdout. A reader that went away early (`| head`) is no error: it has what it wanted.
+///
+/// # Errors
+///
+/// Stdout cannot be written for another reason, a full disk for one.
+pub fn print(text: &str) -> std::io::Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}

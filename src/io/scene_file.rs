@@ -1,0 +1,274 @@
+//! Scenes by name or from a file, changed by what the command line says.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::height_image::{self, HeightImage, ImageError};
+use crate::scene::{Base, Camera, Scene, SceneError, VERSION};
+use crate::suggest;
+use crate::surface::{Shadow, Technique};
+
+/// The scenes that come with the program: name and text. The first is the default.
+pub const EMBEDDED: [(&str, &str); 3] = [
+    ("ripples", include_str!("../../scenes/ripples.toml")),
+    ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
+    ("relief", include_str!("../../scenes/relief.toml")),
+];
+
+/// No scene is longer: what is must be another kind of file.
+const BYTES_MAX: u64 = 1 << 20;
+
+/// The size of the field, as the command line has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FieldSize {
+    /// This width; the height follows the image's aspect, or is the same.
+    Width(u32),
+    /// This width and height.
+    Exactly([u32; 2]),
+}
+
+/// A camera that stands still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraPlacement {
+    /// The eye, metres.
+    pub eye: [f64; 3],
+    /// The point in the middle of the picture, metres.
+    pub target: [f64; 3],
+}
+
+/// What the command line changes in a scene. `None` leaves the scene's own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneOverrides {
+    /// An image whose heights replace the starting height.
+    pub height: Option<PathBuf>,
+    /// The values in the image that become 0 and 1.
+    pub height_range: Option<[f32; 2]>,
+    /// The field's size.
+    pub field: Option<FieldSize>,
+    /// Depth of h = 0, metres.
+    pub depth_metres: Option<f32>,
+    /// How the surface is traced.
+    pub technique: Option<Technique>,
+    /// The shadow upon it.
+    pub shadow: Option<Shadow>,
+    /// Seed of everything random.
+    pub seed: Option<u64>,
+    /// A camera in place of the scene's and all its motion.
+    pub camera: Option<CameraPlacement>,
+    /// Vertical field of view, degrees.
+    pub vertical_fov_degrees: Option<f64>,
+}
+
+/// A scene that is ready to run: checked, its image read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedScene {
+    /// The scene, with the field's size as it will be.
+    pub scene: Scene,
+    image: Option<HeightImage>,
+}
+
+impl LoadedScene {
+    /// The image's heights at the field's size, if the scene starts from an image.
+    ///
+    /// Resampling allocates what the field's size says: check that against the adapter's limits first.
+    pub fn image_heights(&self) -> Option<HeightImage> {
+        self.image.as_ref().map(|image| image.resampled(self.scene.field.size, self.scene.field.addressing))
+    }
+}
+
+/// Why there is no scene to run.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// No scene has this name.
+    #[error("{0}; a file's name must end in .toml")]
+    Unknown(String),
+    /// The file cannot be read.
+    #[error("cannot read the scene {}: {}", path.display(), height_image::explain(cause))]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// The file is no scene.
+    #[error("{}{} {problem}", path.display(), line.map(|line| format!(", line {line}:")).unwrap_or_default())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// Where in it, from 1.
+        line: Option<usize>,
+        /// What is the matter.
+        problem: String,
+    },
+    /// A value of it makes no sense.
+    #[error("scene {name}: {error}")]
+    Invalid {
+        /// The scene.
+        name: String,
+        /// Which value, and what it may be.
+        error: SceneError,
+    },
+    /// Its image is unfit.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// There is nothing that a range could map.
+    #[error("--height-range maps the values of an image, and this scene has none: name one with --height")]
+    RangeWithoutImage,
+}
+
+/// Name and description of every scene that comes with the program.
+pub fn list() -> Vec<(&'static str, String)> {
+    EMBEDDED.iter().map(|&(name, _)| (name, embedded(name).map(|scene| scene.description).unwrap_or_default())).collect()
+}
+
+/// A scene that comes with the program, as it is.
+pub fn embedded(name: &str) -> Option<Scene> {
+    let (_, text) = EMBEDDED.iter().find(|(known, _)| *known == name)?;
+    // A test parses and checks every one of them: none fails here.
+    toml::from_str(text).ok()
+}
+
+/// Loads a scene by name, or from a file: whatever ends in `.toml` or has a path separator in it. Then applies the overrides, checks
+/// every value, reads its image, and moves a camera of the program's own so that it shows the whole plane in a picture of this size.
+///
+/// # Errors
+///
+/// The scene is unknown, unreadable, malformed or has values out of range; its image is unfit.
+pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Result<LoadedScene, SceneFileError> {
+    let is_file = which.ends_with(".toml") || which.contains(std::path::is_separator);
+    let (mut scene, given) = if is_file {
+        read(Path::new(which))?
+    } else {
+        let names = EMBEDDED.map(|(name, _)| name);
+        let scene = embedded(which).ok_or_else(|| SceneFileError::Unknown(suggest::unknown("scene", which, &names)))?;
+        (scene, Given { field_size: true, camera: false })
+    };
+    apply(&mut scene, overrides)?;
+    scene.validate().map_err(|error| SceneFileError::Invalid { name: which.to_owned(), error })?;
+    let image = match &scene.base {
+        Base::Image { path, range } => Some(HeightImage::read(path, *range)?),
+        _ => None,
+    };
+    let own_size = image.as_ref().filter(|_| overrides.height.is_some() || !given.field_size).map(|image| image.size);
+    scene.field.size = match (overrides.field, own_size) {
+        (Some(size), _) => field_size(size, image.as_ref().map(|image| image.size)),
+        (None, Some(size)) => size,
+        (None, None) => scene.field.size,
+    };
+    // A camera that someone chose stays where it is.
+    if overrides.camera.is_none() && !given.camera {
+        scene.camera = scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
+    }
+    Ok(LoadedScene { scene, image })
+}
+
+/// What a file says itself, where its absence means something else than a default value.
+struct Given {
+    field_size: bool,
+    camera: bool,
+}
+
+/// Reads a scene from a file. A relative path to an image is relative to the file.
+fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
+    let unreadable = |cause| SceneFileError::Unreadable { path: path.to_owned(), cause };
+    let malformed = |line, problem: String| SceneFileError::Malformed { path: path.to_owned(), line, problem };
+    let metadata = fs::metadata(path).map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(unreadable(std::io::ErrorKind::IsADirectory.into()));
+    }
+    if metadata.len() > BYTES_MAX {
+        return Err(malformed(
+            None,
+            format!("has {} bytes, and no scene has more than {BYTES_MAX}: name a scene", metadata.len()),
+        ));
+    }
+    let bytes = fs::read(path).map_err(unreadable)?;
+    let text = String::from_utf8(bytes).map_err(|_| malformed(None, "is not a text file: name a scene in TOML".to_owned()))?;
+    let explain = |error: toml::de::Error| {
+        let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
+        malformed(line, explain(error.message()))
+    };
+
+    let table: toml::Table = text.parse().map_err(explain)?;
+    match table.get("version").map(toml::Value::as_integer) {
+        Some(Some(version)) if version == i64::from(VERSION) => {}
+        Some(Some(version)) => {
+            let problem = format!(
+                "is of version {version}, and this program reads version {VERSION}: adapt it and write `version = {VERSION}`"
+            );
+            return Err(malformed(None, problem));
+        }
+        _ => return Err(malformed(None, format!("says no version: write `version = {VERSION}` in its first line"))),
+    }
+    let mut scene: Scene = toml::from_str(&text).map_err(explain)?;
+    if scene.name.is_empty() {
+        scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    }
+    if let Base::Image { path: image, .. } = &mut scene.base
+        && !image.as_os_str().is_empty()
+    {
+        *image = path.parent().unwrap_or(Path::new("")).join(&image);
+    }
+    let field_size = table.get("field").is_some_and(|field| field.get("size").is_some());
+    Ok((scene, Given { field_size, camera: table.contains_key("camera") }))
+}
+
+/// One sentence of the parser's words, with the name that was probably meant.
+fn explain(message: &str) -> String {
+    let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    // "unknown field `x`, expected one of `a`, `b`": what stands between backticks, in turn.
+    let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match names.split_first() {
+        Some((unknown, known)) if message.starts_with("unknown") => match suggest::nearest(unknown, known) {
+            Some(nearest) => format!("{message}: did you mean `{nearest}`?"),
+            None => message,
+        },
+        _ => message,
+    }
+}
+
+/// Applies what the command line says, in the order in which its documentation lists it. The field's size comes later, with the image.
+fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileError> {
+    if let Some(path) = &overrides.height {
+        scene.base = Base::Image { path: path.clone(), range: None };
+    }
+    if overrides.height_range.is_some() {
+        match &mut scene.base {
+            Base::Image { range, .. } => *range = overrides.height_range,
+            _ => return Err(SceneFileError::RangeWithoutImage),
+        }
+    }
+    if let Some(depth) = overrides.depth_metres {
+        scene.plane.depth_metres = depth;
+    }
+    if let Some(technique) = overrides.technique {
+        scene.trace.technique = technique;
+    }
+    if let Some(shadow) = overrides.shadow {
+        scene.trace.shadow = shadow;
+    }
+    if let Some(seed) = overrides.seed {
+        scene.seed = seed;
+    }
+    if let Some(CameraPlacement { eye, target }) = overrides.camera {
+        scene.camera = Camera { eye, target, orbit_degrees_per_second: 0.0, ..scene.camera };
+    }
+    if let Some(fov) = overrides.vertical_fov_degrees {
+        scene.camera.vertical_fov_degrees = fov;
+    }
+    Ok(())
+}
+
+/// The field's size for what the command line says, over an image of this size or none.
+fn field_size(size: FieldSize, image: Option<[u32; 2]>) -> [u32; 2] {
+    match (size, image) {
+        (FieldSize::Exactly(size), _) => size,
+        (FieldSize::Width(width), None) => [width, width],
+        (FieldSize::Width(width), Some([image_width, image_height])) => {
+            let height = (f64::from(width) * f64::from(image_height) / f64::from(image_width)).round();
+            // A float beyond u32 becomes the largest, which the adapter's limits refuse.
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is positive")]
+            [width, (height as u32).max(1)]
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Framing: a scene's own camera shows the whole plane, whatever its aspect and that of the picture.
+
+use glam::{DQuat, DVec3};
+
+use super::{Camera, Scene};
+
+/// How much of the picture's half width and height the plane's corners may take: a little air remains around it.
+const MARGIN: f64 = 0.98;
+
+impl Scene {
+    /// Extent of the plane along x and z, metres: texels are square.
+    pub fn plane_size_metres(&self) -> [f64; 2] {
+        let [width, height] = self.field.size.map(f64::from);
+        let x = f64::from(self.plane.width_metres);
+        [x, x * height / width]
+    }
+
+    /// Side of a texel, metres.
+    pub fn texel_metres(&self) -> f64 {
+        f64::from(self.plane.width_metres) / f64::from(self.field.size[0])
+    }
+
+    /// The scene's camera, moved away from its target as far as is needed to see the whole plane, all the way round its orbit.
+    ///
+    /// `aspect` is the picture's width over its height. A camera that sees the plane stays where it is.
+    pub fn framing(&self, aspect: f64) -> Camera {
+        let camera = &self.camera;
+        let target = DVec3::from(camera.target);
+        let from_target = DVec3::from(camera.eye) - target;
+        let [x, z] = self.plane_size_metres().map(|extent| extent / 2.0);
+        let corners = [DVec3::new(-x, 0.0, -z), DVec3::new(x, 0.0, -z), DVec3::new(-x, 0.0, z), DVec3::new(x, 0.0, z)];
+        let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan() * MARGIN;
+        let half = [half_height * aspect, half_height];
+
+        // A turning camera passes every side of the plane: 5° apart, the corners move by less than the margin.
+        let sides = if camera.orbit_degrees_per_second == 0.0 { 1 } else { 72 };
+        let distance = (0..sides)
+            .map(|side| DQuat::from_rotation_y(f64::from(side) * std::f64::consts::TAU / f64::from(sides)) * from_target)
+            .flat_map(|away| corners.map(|corner| distance_to_see(corner - target, away.normalize(), half)))
+            .fold(from_target.length(), f64::max);
+        if distance <= from_target.length() {
+            return camera.clone();
+        }
+        Camera { eye: (target + from_target.normalize() * distance).to_array(), ..camera.clone() }
+    }
+}
+
+/// The least distance from the target, along `away`, from which `point` (relative to the target) is within the picture.
+fn distance_to_see(point: DVec3, away: DVec3, half: [f64; 2]) -> f64 {
+    // Straight down or up the picture's upper edge is the far side of the plane, as for every camera of this program.
+    let up = if away.y.abs() > 1.0 - 1e-9 { DVec3::NEG_Z } else { DVec3::Y };
+    let right = up.cross(away).normalize();
+    let above = away.cross(right);
+    // The point's depth is the eye's distance less its own share along `away`: |offset| ≤ half · depth on both axes.
+    let needed = [point.dot(right).abs() / half[0], point.dot(above).abs() / half[1]];
+    point.dot(away) + needed[0].max(needed[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dcamera::rh::view::look_at_mat4;
+
+    /// The largest |x| or |y| of a corner in normalised device coordinates; infinite where one lies behind the eye.
+    fn reach(scene: &Scene, camera: &Camera, aspect: f64) -> f64 {
+        let view = look_at_mat4(camera.eye.into(), camera.target.into(), DVec3::Y);
+        let tangent = (camera.vertical_fov_degrees.to_radians() / 2.0).tan();
+        let [x, z] = scene.plane_size_metres().map(|extent| extent / 2.0);
+        [[-x, -z], [x, -z], [-x, z], [x, z]]
+            .map(|[x, z]| {
+                let p = view.transform_point3(DVec3::new(x, 0.0, z));
+                if p.z >= 0.0 { f64::INFINITY } else { (p.x / -p.z / tangent / aspect).abs().max((p.y / -p.z / tangent).abs()) }
+            })
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn every_aspect_shows_the_whole_plane() {
+        for size in [[512, 512], [2048, 64], [64, 2048], [1, 1]] {
+            for aspect in [0.1, 1.0, 16.0 / 9.0, 10.0] {
+                for fov in [5.0, 45.0, 120.0] {
+                    let mut scene = Scene::default();
+                    scene.field.size = size;
+                    scene.camera.vertical_fov_degrees = fov;
+                    let framed = scene.framing(aspect);
+                    let reach = reach(&scene, &framed, aspect);
+                    assert!(reach <= MARGIN + 1e-9, "{size:?} {aspect} {fov}: {reach}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_camera_that_sees_the_plane_stays() {
+        let mut scene = Scene::default();
+        scene.camera.eye = [0.0, 5.0, 5.0];
+        assert_eq!(scene.framing(1.5), scene.camera);
+    }
+
+    #[test]
+    fn straight_down_works_too() {
+        let mut scene = Scene::default();
+        scene.camera.eye = [0.0, 0.1, 0.0];
+        scene.camera.target = [0.0; 3];
+        let framed = scene.framing(1.0);
+        assert!(framed.eye.iter().all(|coordinate| coordinate.is_finite()) && framed.eye[1] > 1.0, "{:?}", framed.eye);
+    }
+}

@@ -1,0 +1,306 @@
+//! What a scene may say: a range for every number, and the sentence for one outside it.
+
+use std::fmt;
+
+use super::{Base, Camera, Light, Material, Obstacle, Scene, Shots, Trace, VERSION, Wave};
+
+/// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
+pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
+/// Vertical field of view of a camera.
+pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low: false, with_high: false, unit: "degrees" };
+/// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
+pub const COURANT_SQUARED_MAX: f64 = 0.49;
+
+/// The numbers that a key may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    low: f64,
+    high: f64,
+    with_low: bool,
+    with_high: bool,
+    unit: &'static str,
+}
+
+impl Range {
+    /// From `low` to `high`, both included.
+    pub const fn from_to(low: f64, high: f64, unit: &'static str) -> Self {
+        Self { low, high, with_low: true, with_high: true, unit }
+    }
+
+    /// From `low`, which is excluded, to `high`, which is included.
+    pub const fn above(low: f64, high: f64, unit: &'static str) -> Self {
+        Self { low, high, with_low: false, with_high: true, unit }
+    }
+
+    /// Whether this number lies in it. NaN lies nowhere.
+    pub fn contains(&self, number: f64) -> bool {
+        let above = if self.with_low { number >= self.low } else { number > self.low };
+        let below = if self.with_high { number <= self.high } else { number < self.high };
+        above && below
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { low, high, with_low, with_high, unit } = *self;
+        let low_word = if with_low { "from" } else { "above" };
+        let high_word = match (with_low, with_high) {
+            (true, true) => "to",
+            (false, true) => "and at most",
+            (_, false) => "and below",
+        };
+        let space = if unit.is_empty() { "" } else { " " };
+        write!(f, "a number {low_word} {low} {high_word} {high}{space}{unit}")
+    }
+}
+
+/// What is wrong with a scene, one sentence with the key, its value and what it may be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// Another format.
+    #[error("`version` is {found}, and this program reads version {VERSION}: write `version = {VERSION}` and adapt the keys")]
+    Version {
+        /// The version in the file.
+        found: u32,
+    },
+    /// A value that its key may not have.
+    #[error("`{key}` is {value}: it must be {allowed}")]
+    Value {
+        /// The key, with its tables.
+        key: String,
+        /// The value.
+        value: String,
+        /// What it may be, in words.
+        allowed: String,
+    },
+}
+
+impl Scene {
+    /// Checks every value against its range, and the stability of the wave.
+    ///
+    /// The sizes of textures are checked against an adapter's limits elsewhere: no scene knows those.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        if self.version != VERSION {
+            return Err(SceneError::Version { found: self.version });
+        }
+        if self.field.size.contains(&0) {
+            let [width, height] = self.field.size;
+            return refuse("field.size", format!("[{width}, {height}]"), "at least 1 texel wide and high");
+        }
+        number("plane.width_metres", self.plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
+        number("plane.depth_metres", self.plane.depth_metres, DEPTH_METRES)?;
+        validate_base(&self.base)?;
+        self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.shots.as_ref().map_or(Ok(()), validate_shots)?;
+        validate_trace(&self.trace)?;
+        validate_light(&self.light)?;
+        validate_material(&self.material)?;
+        validate_camera(&self.camera)
+    }
+}
+
+/// Whether a camera can look from `eye` to `target`; else what they must be.
+pub fn check_camera(eye: [f64; 3], target: [f64; 3]) -> Result<(), String> {
+    // The reach of f32 metres with a hundredth of precision, twice over; a nanometre is nothing to look along.
+    let reach = Range::from_to(-1e6, 1e6, "metres");
+    if let Some(stray) = eye.iter().chain(&target).find(|&&coordinate| !reach.contains(coordinate)) {
+        return Err(format!("{stray} is too far away, each coordinate must be {reach}"));
+    }
+    let squared: f64 = eye.iter().zip(&target).map(|(e, t)| (e - t) * (e - t)).sum();
+    if squared.sqrt() < 1e-9 {
+        return Err("eye and target are the same point, move one of them".to_owned());
+    }
+    Ok(())
+}
+
+fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
+    Err(SceneError::Value { key: key.into(), value: value.to_string(), allowed: allowed.to_string() })
+}
+
+fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
+    if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
+}
+
+fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
+    values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
+}
+
+fn validate_base(base: &Base) -> Result<(), SceneError> {
+    match base {
+        Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
+        Base::Bricks | Base::Cobbles | Base::Terrain => Ok(()),
+        Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
+        Base::Image { range: Some([low, high]), .. } if !(low < high && (high - low).is_finite()) => {
+            refuse("base.range", format!("[{low}, {high}]"), "two finite numbers, the first less than the second")
+        }
+        Base::Image { .. } => Ok(()),
+    }
+}
+
+fn validate_wave(wave: &Wave) -> Result<(), SceneError> {
+    number("wave.speed_metres_per_second", wave.speed_metres_per_second, Range::above(0.0, 1e4, "metres per second"))?;
+    let courant = f64::from(wave.courant);
+    if !(courant > 0.0 && courant * courant <= COURANT_SQUARED_MAX) {
+        let allowed = format!(
+            "a number above 0 and at most {} (its square at most {COURANT_SQUARED_MAX}), beyond which waves grow without bound",
+            COURANT_SQUARED_MAX.sqrt()
+        );
+        return refuse("wave.courant", wave.courant, allowed);
+    }
+    number("wave.damping_per_second", wave.damping_per_second, Range::from_to(0.0, 1000.0, "per second"))?;
+    number("wave.sponge_texels", wave.sponge_texels, Range::from_to(1.0, 16384.0, "texels"))?;
+    number("wave.amplitude", wave.amplitude, Range::from_to(0.0, 1.0, ""))?;
+    if let Some(rain) = &wave.rain {
+        number("wave.rain.drops_per_second", rain.drops_per_second, Range::from_to(0.0, 1e5, "per second"))?;
+        number("wave.rain.radius_metres", rain.radius_metres, Range::above(0.0, 1e6, "metres"))?;
+        number("wave.rain.strength", rain.strength, Range::from_to(0.0, 100.0, ""))?;
+    }
+    wave.obstacles.iter().enumerate().try_for_each(|(i, obstacle)| validate_obstacle(i, obstacle))
+}
+
+fn validate_obstacle(i: usize, obstacle: &Obstacle) -> Result<(), SceneError> {
+    let key = |name: &str| format!("wave.obstacles[{i}].{name}");
+    numbers(&key("centre"), &obstacle.centre, Range::from_to(0.0, 1.0, ""))?;
+    numbers(&key("half_extent_metres"), &obstacle.half_extent_metres, Range::above(0.0, 1e6, "metres"))?;
+    number(key("corner_metres"), obstacle.corner_metres, Range::from_to(0.0, 1e6, "metres"))?;
+    number(key("top"), obstacle.top, Range::from_to(0.0, 1.0, ""))
+}
+
+fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
+    number("shots.per_second", shots.per_second, Range::from_to(0.0, 1e5, "per second"))?;
+    numbers("shots.radius_metres", &shots.radius_metres, Range::above(0.0, 1e6, "metres"))?;
+    let [smallest, largest] = shots.radius_metres;
+    if smallest > largest {
+        return refuse("shots.radius_metres", format!("[{smallest}, {largest}]"), "the smallest radius, then the largest");
+    }
+    number("shots.depth_metres", shots.depth_metres, Range::from_to(0.0, 1e6, "metres"))?;
+    number("shots.scorch", shots.scorch, Range::from_to(0.0, 1.0, ""))
+}
+
+fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
+    // Counts beyond these change no picture and stall a frame: 65,536 samples cross a field of 16,384 texels four times a texel.
+    let samples = Range::from_to(1.0, 65536.0, "samples");
+    number("trace.pom_samples_min", trace.pom_samples_min, samples)?;
+    number("trace.pom_samples_max", trace.pom_samples_max, samples)?;
+    if trace.pom_samples_min > trace.pom_samples_max {
+        let allowed = format!("at most `trace.pom_samples_max`, {}", trace.pom_samples_max);
+        return refuse("trace.pom_samples_min", trace.pom_samples_min, allowed);
+    }
+    number("trace.shadow_samples", trace.shadow_samples, samples)?;
+    number("trace.shadow_strength", trace.shadow_strength, Range::from_to(0.0, 1000.0, ""))?;
+    number("trace.step_cap", trace.step_cap, Range::from_to(1.0, 16_777_216.0, "steps"))?;
+    number("trace.supersampling", trace.supersampling, Range::from_to(1.0, 8.0, "rays along a pixel's side"))
+}
+
+fn validate_light(light: &Light) -> Result<(), SceneError> {
+    number("light.azimuth_degrees", light.azimuth_degrees, Range::from_to(-3600.0, 3600.0, "degrees"))?;
+    number("light.elevation_degrees", light.elevation_degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
+    let radiance = Range::from_to(0.0, 1e4, "");
+    numbers("light.colour", &light.colour, radiance)?;
+    number("light.intensity", light.intensity, radiance)?;
+    numbers("light.sky", &light.sky, radiance)?;
+    numbers("light.ground", &light.ground, radiance)?;
+    number("light.turn_degrees_per_second", light.turn_degrees_per_second, Range::from_to(-3600.0, 3600.0, "degrees per second"))
+}
+
+fn validate_material(material: &Material) -> Result<(), SceneError> {
+    numbers("material.tint", &material.tint, Range::from_to(0.0, 10.0, ""))?;
+    number("material.specular", material.specular, Range::from_to(0.0, 1.0, ""))?;
+    number("material.shininess", material.shininess, Range::above(0.0, 1e5, ""))
+}
+
+fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
+    if let Err(problem) = check_camera(camera.eye, camera.target) {
+        return refuse(
+            "camera.eye",
+            format!("{:?} with `camera.target` {:?}", camera.eye, camera.target),
+            format!("another: {problem}"),
+        );
+    }
+    number("camera.vertical_fov_degrees", camera.vertical_fov_degrees, VERTICAL_FOV_DEGREES)?;
+    number("camera.near_metres", camera.near_metres, Range::above(0.0, 1e4, "metres"))?;
+    number(
+        "camera.orbit_degrees_per_second",
+        camera.orbit_degrees_per_second,
+        Range::from_to(-3600.0, 3600.0, "degrees per second"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Boundary, Rain};
+    use super::*;
+
+    /// A scene with every optional part, so that every range is reached.
+    fn full() -> Scene {
+        let obstacle = Obstacle { centre: [0.5, 0.5], half_extent_metres: [0.1, 0.1], corner_metres: 0.0, top: 1.0 };
+        Scene {
+            wave: Some(Wave {
+                boundary: Boundary::Absorbing,
+                rain: Some(Rain::default()),
+                obstacles: vec![obstacle],
+                ..Wave::default()
+            }),
+            shots: Some(Shots::default()),
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn the_defaults_are_valid() {
+        assert_eq!(Scene::default().validate(), Ok(()));
+        assert_eq!(full().validate(), Ok(()));
+    }
+
+    #[test]
+    fn every_number_has_a_range() {
+        // Each number of the scene in turn becomes NaN, or 0 texels, or what else no key allows, by way of its JSON.
+        fn leaves(value: &serde_json::Value, path: &str, found: &mut Vec<String>) {
+            match value {
+                serde_json::Value::Object(map) => map.iter().for_each(|(k, v)| leaves(v, &format!("{path}/{k}"), found)),
+                serde_json::Value::Array(list) => {
+                    list.iter().enumerate().for_each(|(i, v)| leaves(v, &format!("{path}/{i}"), found));
+                }
+                serde_json::Value::Number(_) => found.push(path.to_owned()),
+                _ => {}
+            }
+        }
+        let whole = serde_json::to_value(full()).unwrap();
+        let mut found = Vec::new();
+        leaves(&whole, "", &mut found);
+        assert!(found.len() > 50, "{found:?}");
+        for path in found.iter().filter(|path| *path != "/seed") {
+            let mut poisoned = whole.clone();
+            let slot = poisoned.pointer_mut(path).unwrap();
+            *slot = if slot.is_u64() { 0.into() } else { serde_json::json!(-1e30) };
+            let scene: Scene = serde_json::from_value(poisoned).unwrap();
+            let error = scene.validate().expect_err(path).to_string();
+            let key = path.split('/').rfind(|part| part.parse::<usize>().is_err()).unwrap();
+            assert!(error.contains(key), "{path}: {error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_wave_that_would_grow_is_refused() {
+        let mut scene = full();
+        for (courant, stable) in [(0.7, true), (0.700_001, false), (0.0, false), (-0.5, false), (f32::NAN, false)] {
+            scene.wave.as_mut().unwrap().courant = courant;
+            assert_eq!(scene.validate().is_ok(), stable, "{courant}");
+        }
+    }
+
+    #[test]
+    fn nan_lies_in_no_range() {
+        assert!(!Range::from_to(0.0, 1.0, "").contains(f64::NAN));
+        assert_eq!(Range::above(0.0, 2.0, "metres").to_string(), "a number above 0 and at most 2 metres");
+        assert_eq!(VERTICAL_FOV_DEGREES.to_string(), "a number above 0 and below 180 degrees");
+    }
+
+    #[test]
+    fn a_camera_looks_somewhere() {
+        assert!(check_camera([0.0, 1.0, 0.0], [0.0; 3]).is_ok());
+        assert!(check_camera([1.0; 3], [1.0; 3]).is_err());
+        assert!(check_camera([1e9, 0.0, 0.0], [1.0; 3]).is_err());
+    }
+}

@@ -1,0 +1,371 @@
+//! Stamps: the shader against its reference, and both against what blends and volumes must be.
+
+use rilievo::field::bins::BinError;
+use rilievo::field::stamp::{Blend, CRATER_RIM, Profile, Stamp, StampSet, Stamps};
+use rilievo::field::wave::Waves;
+use rilievo::field::{Dirty, Field};
+use rilievo::gpu::Gpu;
+use rilievo::reference::stamp::Layers;
+use rilievo::scene::{self, Addressing, Boundary};
+use rilievo::stroke::{Random, Stream, stress_discs};
+
+use crate::support::gpu::{gpu, read, run, run_timed};
+use crate::support::tolerances::*;
+
+/// A wall on the GPU.
+struct Wall {
+    gpu: &'static Gpu,
+    stamps: Stamps,
+    field: Field,
+    set: StampSet,
+}
+
+impl Wall {
+    fn new(size: [u32; 2], addressing: Addressing, height: f32) -> Option<Self> {
+        let gpu = gpu()?;
+        let stamps = Stamps::new(gpu).expect("the shader compiles");
+        let field = Field::new(gpu, size, addressing, false);
+        field.relief.write(gpu, &vec![height; size[0] as usize * size[1] as usize]);
+        let set = stamps.bind(gpu, &field);
+        Some(Self { gpu, stamps, field, set })
+    }
+
+    fn press(&mut self, stamps: &[Stamp]) -> Dirty {
+        run(self.gpu, |recorder| self.stamps.record(recorder, &mut self.set, stamps)).expect("the stamps fit every buffer")
+    }
+
+    fn relief(&self) -> Vec<f32> {
+        read(self.gpu, &self.field.relief)
+    }
+
+    /// Soot and bareness.
+    fn material(&self) -> Vec<[f64; 2]> {
+        let texels: Vec<[u8; 4]> = read(self.gpu, &self.field.material);
+        texels.into_iter().map(|[soot, bare, ..]| [soot, bare].map(|level| f64::from(level) / 255.0)).collect()
+    }
+}
+
+/// Stamps of all kinds, of a radius up to `largest`, all over the field and over its border.
+fn any_stamps(seed: u64, count: u64, size: [u32; 2], largest: f64) -> Vec<Stamp> {
+    (0..count)
+        .map(|number| {
+            let mut random = Random::new(seed, Stream::Hand, number);
+            let mut pick = |from: usize| (random.unit() * from as f64) as usize;
+            let (profile, blend) = (Profile::ALL[pick(4)], Blend::ALL[pick(4)]);
+            Stamp {
+                centre: [0, 1].map(|axis| random.between(-4.0, f64::from(size[axis]) + 4.0) as f32),
+                radius: random.between(0.6, largest) as f32,
+                height: random.between(-0.2, 0.2) as f32,
+                level: random.between(0.3, 0.9) as f32,
+                profile,
+                blend,
+                alpha: random.unit() as f32,
+                irregularity: if random.unit() < 0.5 { 0.0 } else { random.unit() as f32 },
+                phase: random.between(0.0, 7.0) as f32,
+                soot: random.unit() as f32,
+                bare: random.unit() as f32,
+            }
+        })
+        .collect()
+}
+
+/// Largest difference of relief and of material, away from texels where f32 cannot tell on which side of a hard edge they lie.
+fn compare(wall: &Wall, expected: &Layers, stamps: &[Stamp]) -> (f64, f64) {
+    let unsure = |index: usize| stamps.iter().any(|stamp| on_edge(stamp, index, expected.size));
+    let relief = wall.relief();
+    let material = wall.material();
+    let mut worst = (0.0_f64, 0.0_f64);
+    for index in (0..relief.len()).filter(|index| !unsure(*index)) {
+        worst.0 = worst.0.max((f64::from(relief[index]) - expected.relief[index]).abs());
+        for (actual, expected) in material[index].iter().zip(&expected.material[index]) {
+            worst.1 = worst.1.max((actual - expected).abs());
+        }
+    }
+    worst
+}
+
+/// Whether a texel, in some image of the field, lies within rounding of the edge of a stamp, where a disc, or any min, max or
+/// replace, jumps.
+fn on_edge(stamp: &Stamp, index: usize, size: [usize; 2]) -> bool {
+    let radius = f64::from(stamp.radius);
+    let reach = (radius / size[0].min(size[1]) as f64).ceil() as i64 + 1;
+    (-reach..=reach).any(|image_y| {
+        (-reach..=reach).any(|image_x| {
+            let x = (index % size[0]) as f64 + (image_x * size[0] as i64) as f64 - f64::from(stamp.centre[0]);
+            let y = (index / size[0]) as f64 + (image_y * size[1] as i64) as f64 - f64::from(stamp.centre[1]);
+            (x.hypot(y) - radius).abs() < 1e-6 * (1.0 + radius)
+        })
+    })
+}
+
+#[test]
+fn every_profile_and_blend_equals_the_reference() {
+    for (addressing, wrap) in [(Addressing::Wrap, true), (Addressing::Clamp, false)] {
+        let size = [45, 38];
+        for profile in Profile::ALL {
+            for blend in Blend::ALL {
+                for stamp in any_stamps(1, 6, size, 20.0) {
+                    let stamp = Stamp { profile, blend, ..stamp };
+                    let Some(mut wall) = Wall::new(size, addressing, 0.75) else { return };
+                    let mut expected = Layers::flat(size.map(|size| size as usize), wrap, 0.75);
+                    wall.press(&[stamp]);
+                    expected.press(&stamp);
+                    let (relief, material) = compare(&wall, &expected, &[stamp]);
+                    assert!(relief <= STAMP_HEIGHT, "{stamp:?}: relief differs by {relief:.2e}");
+                    assert!(material <= STAMP_MATERIAL, "{stamp:?}: material differs by {material:.2e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn many_stamps_on_top_of_one_another_equal_the_reference_in_their_order() {
+    for (addressing, wrap) in [(Addressing::Wrap, true), (Addressing::Clamp, false)] {
+        for size in [[61, 47], [64, 64], [1, 40], [40, 1], [1, 1], [5, 3]] {
+            let stamps = any_stamps(u64::from(size[0]), 60, size, 12.0);
+            let Some(mut wall) = Wall::new(size, addressing, 0.5) else { return };
+            let mut expected = Layers::flat(size.map(|size| size as usize), wrap, 0.5);
+            wall.press(&stamps);
+            stamps.iter().for_each(|stamp| expected.press(stamp));
+            let (relief, material) = compare(&wall, &expected, &stamps);
+            // On a tiny wrapping field one stamp falls upon a texel many times.
+            let largest = expected.relief.iter().fold(1.0_f64, |largest, height| largest.max(height.abs()));
+            let falls = 60.0 * if wrap { (24.0 / f64::from(size[0].min(size[1])) + 1.0).powi(2) } else { 1.0 };
+            assert!(
+                relief <= STAMP_HEIGHT_EACH * falls * largest,
+                "{size:?}, wrap {wrap}: {relief:.2e}, {falls} falls, {largest}"
+            );
+            assert!(material <= STAMP_MATERIAL, "{size:?}, wrap {wrap}: material differs by {material:.2e}");
+        }
+    }
+}
+
+#[test]
+fn the_order_of_replacing_matters_and_is_that_of_submission() {
+    let disc = |level| Stamp {
+        centre: [20.0, 20.0],
+        level,
+        height: 0.0,
+        blend: Blend::Replace,
+        profile: Profile::Disc,
+        ..Stamp::default()
+    };
+    for order in [[0.2, 0.6], [0.6, 0.2]] {
+        let Some(mut wall) = Wall::new([40, 40], Addressing::Clamp, 1.0) else { return };
+        wall.press(&order.map(disc));
+        assert_eq!(wall.relief()[20 * 40 + 20], order[1]);
+    }
+}
+
+#[test]
+fn min_and_max_are_the_same_in_every_order_to_the_bit() {
+    for blend in [Blend::Min, Blend::Max] {
+        let size = [70, 50];
+        let mut stamps: Vec<_> = any_stamps(9, 300, size, 15.0).into_iter().map(|stamp| Stamp { blend, ..stamp }).collect();
+        let pressed = |stamps: &[Stamp]| {
+            let mut wall = Wall::new(size, Addressing::Wrap, 0.6)?;
+            wall.press(stamps);
+            Some(wall.relief().into_iter().map(f32::to_bits).collect::<Vec<_>>())
+        };
+        let Some(expected) = pressed(&stamps) else { return };
+        stamps.reverse();
+        assert!(pressed(&stamps).as_ref() == Some(&expected), "{blend:?} reversed");
+        // A riffle: the second half between the first.
+        let (first, second) = stamps.split_at(150);
+        let riffled: Vec<_> = first.iter().zip(second).flat_map(|(a, b)| [*b, *a]).collect();
+        assert!(pressed(&riffled).as_ref() == Some(&expected), "{blend:?} riffled");
+    }
+}
+
+#[test]
+fn the_volume_of_smooth_profiles_is_the_analytic_one() {
+    for profile in [Profile::Bump, Profile::Crater, Profile::Cone] {
+        let size = [256, 256];
+        let stamps: Vec<_> = any_stamps(4, 40, size, 30.0)
+            .into_iter()
+            .map(|stamp| Stamp {
+                radius: stamp.radius.max(12.0),
+                height: stamp.height.abs() + 0.05,
+                profile,
+                blend: Blend::Add,
+                irregularity: 0.0,
+                ..stamp
+            })
+            .collect();
+        let Some(mut wall) = Wall::new(size, Addressing::Wrap, 0.0) else { return };
+        wall.press(&stamps);
+        let volume: f64 = wall.relief().into_iter().map(f64::from).sum();
+        let expected: f64 =
+            stamps.iter().map(|stamp| f64::from(stamp.height) * f64::from(stamp.radius).powi(2) * profile.volume()).sum();
+        let error = (volume / expected - 1.0).abs();
+        println!("{profile:?}: volume {volume:.3}, relative error {error:.1e}");
+        assert!(error <= STAMP_VOLUME, "{profile:?}: {volume} of {expected}");
+    }
+}
+
+#[test]
+fn a_stamp_over_the_corner_of_a_wrapping_field_lands_on_all_four_corners() {
+    let corners = [0, 31, 31 * 32, 31 * 32 + 31];
+    let stamp = Stamp { centre: [-0.5, 31.5], radius: 4.0, profile: Profile::Bump, height: -0.3, ..Stamp::default() };
+    let Some(mut wall) = Wall::new([32, 32], Addressing::Wrap, 1.0) else { return };
+    let dirty = wall.press(&[stamp]);
+    let relief = wall.relief();
+    // The centre lies half a texel from each of them: the same to the bit.
+    assert!(corners.iter().all(|corner| relief[*corner] == relief[0] && relief[0] < 0.75), "{:?}", corners.map(|c| relief[c]));
+    let held = dirty.regions([32, 32]);
+    assert_eq!(held.len(), 4, "{held:?}");
+    let Some(mut wall) = Wall::new([32, 32], Addressing::Clamp, 1.0) else { return };
+    wall.press(&[stamp]);
+    let relief = wall.relief();
+    assert!(relief[corners[2]] < 0.75 && [0, 1, 3].iter().all(|corner| relief[corners[*corner]] == 1.0));
+}
+
+#[test]
+fn a_stamp_larger_than_a_wrapping_field_falls_upon_it_as_often_as_it_covers_it() {
+    let stamp = Stamp { centre: [3.0, 2.0], radius: 40.0, height: 0.001, profile: Profile::Disc, ..Stamp::default() };
+    let Some(mut wall) = Wall::new([7, 5], Addressing::Wrap, 0.0) else { return };
+    wall.press(&[stamp]);
+    let mut expected = Layers::flat([7, 5], true, 0.0);
+    expected.press(&stamp);
+    let (relief, _) = compare(&wall, &expected, &[stamp]);
+    assert!(expected.relief.iter().all(|height| *height > 0.13), "some 143 images");
+    assert!(relief <= 143.0 * STAMP_HEIGHT_EACH * 0.15, "{relief:.2e}");
+}
+
+#[test]
+fn nothing_changes_outside_what_is_said_to_be_dirty_nor_beyond_a_radius() {
+    for addressing in [Addressing::Wrap, Addressing::Clamp] {
+        let size = [120, 90];
+        let Some(mut wall) = Wall::new(size, addressing, 0.5) else { return };
+        for seed in 0..20 {
+            let before = (wall.relief(), wall.material());
+            let stamps = any_stamps(seed, 1 + seed % 6, size, 9.0);
+            let dirty = wall.press(&stamps).regions(size);
+            let after = (wall.relief(), wall.material());
+            for index in 0..before.0.len() {
+                let texel = [index as u32 % size[0], index as u32 / size[0]];
+                let held = dirty.iter().any(|region| {
+                    (0..2).all(|axis| (region.origin[axis]..region.origin[axis] + region.extent[axis]).contains(&texel[axis]))
+                });
+                assert!(
+                    held || (before.0[index] == after.0[index] && before.1[index] == after.1[index]),
+                    "{texel:?} of {dirty:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn frames_of_stamps_equal_one_frame_of_them_all() {
+    let size = [60, 60];
+    let stamps = any_stamps(2, 90, size, 10.0);
+    let (Some(mut one), Some(mut many)) = (Wall::new(size, Addressing::Wrap, 0.5), Wall::new(size, Addressing::Wrap, 0.5)) else {
+        return;
+    };
+    one.press(&stamps);
+    stamps.chunks(7).for_each(|chunk| {
+        many.press(chunk);
+    });
+    assert_eq!(one.relief(), many.relief());
+}
+
+#[test]
+fn stamps_that_are_no_numbers_or_off_the_field_change_nothing() {
+    let at = |centre, radius| Stamp { centre, radius, soot: 1.0, ..Stamp::default() };
+    let (nan, infinity) = (f32::NAN, f32::INFINITY);
+    let stamps = [
+        at([nan, 4.0], 3.0),
+        at([4.0, infinity], 3.0),
+        at([4.0, 4.0], nan),
+        at([4.0, 4.0], infinity),
+        at([4.0, 4.0], 0.0),
+        at([4.0, 4.0], -3.0),
+        at([1e30, 4.0], 3.0),
+    ];
+    for addressing in [Addressing::Wrap, Addressing::Clamp] {
+        let Some(mut wall) = Wall::new([16, 16], addressing, 0.5) else { return };
+        assert_eq!(wall.press(&stamps), Dirty::Nothing);
+        assert!(wall.relief().iter().all(|height| *height == 0.5));
+    }
+    let Some(mut wall) = Wall::new([16, 16], Addressing::Clamp, 0.5) else { return };
+    assert_eq!(wall.press(&[at([-3.0, 4.0], 2.9), at([40.0, 4.0], 8.0)]), Dirty::Nothing);
+    assert_eq!(wall.press(&[]), Dirty::Nothing);
+}
+
+#[test]
+fn ten_thousand_fit_and_what_does_not_fit_says_so() {
+    let size = [1024, 1024];
+    let Some(mut wall) = Wall::new(size, Addressing::Wrap, 0.5) else { return };
+    let discs: Vec<_> = stress_discs(0, 0, 10_000, 8.0, size).collect();
+    assert_eq!(wall.press(&discs), Dirty::All);
+    let lifted: Vec<_> = stress_discs(0, 1, 10_000, 8.0, size).collect();
+    wall.press(&lifted);
+    let uneven = wall.relief().into_iter().map(|height| (height - 0.5).abs()).fold(0.0, f32::max);
+    assert!(uneven < 1e-5, "what was pressed is lifted again: {uneven}");
+
+    let huge = vec![Stamp { radius: 1e6, ..Stamp::default() }; 3];
+    let before = wall.relief();
+    let error =
+        run(wall.gpu, |recorder| wall.stamps.record(recorder, &mut wall.set, &huge)).expect_err("no buffer is that large");
+    assert!(matches!(error, BinError::TooMany { discs: 3, .. }));
+    assert!(error.to_string().ends_with("press fewer or smaller ones"), "{error}");
+    assert_eq!(before, wall.relief());
+}
+
+#[test]
+fn four_thousand_stamps_cost_at_most_two_wave_steps() {
+    let size = [1024, 1024];
+    let Some(mut wall) = Wall::new(size, Addressing::Wrap, 0.5) else { return };
+    if !wall.gpu.has_timestamps() {
+        eprintln!("SKIPPED, the adapter cannot time passes");
+        return;
+    }
+    let waves = Waves::new(wall.gpu).expect("the shader compiles");
+    let wave = scene::Wave { boundary: Boundary::Periodic, ..scene::Wave::default() };
+    let field = Field::new(wall.gpu, size, Addressing::Wrap, true);
+    let mut pool = waves.bind(wall.gpu, &field, &wave, [1.0, 1.0]);
+    // Stamps beside steps in one submission, so that both see the same machine, and the median of their ratios.
+    let mut median_ratio = |name: &str, stamps_of: &dyn Fn(u64) -> Vec<Stamp>| {
+        let mut ratios: Vec<_> = (0..31)
+            .map(|frame| {
+                let discs = stamps_of(frame);
+                let (_, passes) = run_timed(wall.gpu, |recorder| {
+                    waves.record(recorder, &mut pool, 2, &[]).expect("no impulses");
+                    wall.stamps.record(recorder, &mut wall.set, &discs).expect("they fit");
+                });
+                let time = |name: &str| {
+                    let pass = passes.iter().find(|pass| pass.name == name).expect("it was recorded");
+                    pass.milliseconds.expect("the adapter has timestamps")
+                };
+                time("stamp") / time("wave")
+            })
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        println!("4,096 {name} of radius 8 at 1024²: {:.2} wave steps", 2.0 * ratios[15]);
+        2.0 * ratios[15]
+    };
+    let discs = |frame| stress_discs(0, frame, 4096, 8.0, size).collect::<Vec<_>>();
+    let craters = |frame| {
+        let crater = |disc| Stamp { profile: Profile::Crater, irregularity: 0.5, soot: 0.5, bare: 1.0, ..disc };
+        stress_discs(0, frame, 4096, 8.0, size).map(crater).collect::<Vec<_>>()
+    };
+    let steps = median_ratio("discs", &discs);
+    assert!(steps <= STAMP_BUDGET_STEPS, "{steps:.2} wave steps");
+    // What a stamp can do at most; its margin is too small to be held to it on a busy machine.
+    median_ratio("irregular craters with soot", &craters);
+}
+
+#[test]
+fn a_crater_blackens_its_surroundings_and_bares_its_inside() {
+    let Some(mut wall) = Wall::new([64, 64], Addressing::Clamp, 1.0) else { return };
+    let crater = Stamp { centre: [32.0, 32.0], radius: 24.0, profile: Profile::Crater, soot: 0.9, bare: 1.0, ..Stamp::default() };
+    wall.press(&[crater]);
+    let material = wall.material();
+    let at = |away: f64| material[32 * 64 + 32 + (away * 24.0) as usize];
+    assert_eq!(at(0.0)[1], 1.0);
+    assert_eq!(at(CRATER_RIM + 0.1)[1], 0.0);
+    assert!(at(CRATER_RIM + 0.1)[0] > 0.2, "soot beyond the rim: {:?}", at(CRATER_RIM + 0.1));
+    assert!(material.iter().all(|[soot, bare]| *soot <= 1.0 && *bare <= 1.0));
+}

@@ -1,0 +1,107 @@
+//! The house's rules, without a GPU: the stem rule, the contract table, the list of embedded shaders.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rilievo::field;
+use rilievo::gpu::shader::EMBEDDED;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Names of all WGSL parts on disk: paths under `shaders/` without the ending.
+fn parts_on_disk() -> BTreeSet<String> {
+    let mut parts = BTreeSet::new();
+    let mut folders = vec![root().join("shaders")];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("the folder of shaders is part of the repository") {
+            let path = entry.expect("its entries can be listed").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let below = path.strip_prefix(root().join("shaders")).expect("the walk began there").with_extension("");
+                parts.insert(below.to_string_lossy().replace('\\', "/"));
+            }
+        }
+    }
+    parts
+}
+
+#[test]
+fn the_binary_embeds_every_shader() {
+    let embedded: BTreeSet<_> = EMBEDDED.iter().map(|(name, _)| (*name).to_owned()).collect();
+    assert_eq!(embedded, parts_on_disk());
+}
+
+/// Stems that the rule does not bind wholly: the shader, which of its companions it lacks, and why.
+const EXEMPT: &[(&str, &[&str], &str)] = &[
+    ("surface/albedo_brick", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
+    ("surface/albedo_cobble", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
+    ("surface/albedo_plain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    ("surface/albedo_water", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    ("surface/matter", &["src", "reference", "tests"], "what albedos share"),
+    ("surface/ray", &["src", "reference", "tests"], "two structs: their twins are the probe's"),
+    ("surface/shade", &["src", "reference", "tests"], "a light model without free choices: the goldens hold it"),
+    ("surface/surface", &["reference", "tests"], "calls what others prove; the goldens hold it"),
+    ("surface/channels", &["reference", "tests"], "calls what others prove; the captures' proof reads it"),
+    ("surface/probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),
+];
+
+/// Techniques and shadows are one WGSL file each and share the passes that run them: they have no Rust of their own.
+fn needs_rust(part: &str) -> bool {
+    !["surface/trace_", "surface/shadow_", "surface/traversal"].iter().any(|prefix| part.starts_with(prefix))
+}
+
+#[test]
+fn one_stem_names_shader_rust_reference_and_test() {
+    for part in parts_on_disk().iter().filter(|part| part.starts_with("field/") || part.starts_with("surface/")) {
+        let (folder, stem) = part.split_once('/').expect("the filter asks for a folder");
+        let companions: [(&str, PathBuf); 3] = [
+            ("src", root().join(format!("src/{folder}/{stem}.rs"))),
+            ("reference", root().join(format!("src/reference/{stem}.rs"))),
+            ("tests", root().join(format!("tests/{folder}/{stem}.rs"))),
+        ];
+        let lacking = EXEMPT.iter().find(|(exempt, _, _)| exempt == part).map_or(&[][..], |(_, lacking, _)| lacking);
+        for (companion, path) in companions {
+            let expected = !lacking.contains(&companion) && (companion != "src" || needs_rust(part));
+            assert_eq!(path.exists(), expected, "{}: see the stem rule in tests/house.rs", path.display());
+        }
+    }
+}
+
+#[test]
+fn every_exemption_is_still_needed() {
+    let parts = parts_on_disk();
+    for (part, _, reason) in EXEMPT {
+        assert!(parts.contains(*part), "{part} is exempt ({reason}) but is gone");
+    }
+}
+
+#[test]
+fn the_field_takes_at_most_forty_bytes_a_texel() {
+    assert!(field::bytes_per_texel() <= 40.0, "{} bytes a texel", field::bytes_per_texel());
+}
+
+/// The table in the module's documentation says what the code says.
+#[test]
+fn the_contract_table_is_true() {
+    let source = fs::read_to_string(root().join("src/field/mod.rs")).expect("the module is part of the repository");
+    for (contract, count) in field::CONTRACT {
+        let row = source
+            .lines()
+            .find(|line| line.split('|').nth(1).is_some_and(|name| name.trim().trim_end_matches(" (two)") == contract.name))
+            .unwrap_or_else(|| panic!("the table lacks {}", contract.name));
+        let columns: Vec<_> = row.trim_start_matches("//! |").split('|').map(str::trim).collect();
+        let format = format!("{:?}", contract.format).to_lowercase();
+        let bytes = contract.bytes_per_texel() * f64::from(*count);
+        let whole = if bytes.fract() == 0.0 { format!("{bytes}") } else { format!("{}⅓", bytes.floor()) };
+        assert!(columns[1].starts_with(&format), "{row}: the format is {format}");
+        assert_eq!(columns[2], whole, "{row}: bytes a texel");
+        assert_eq!(columns[4], contract.writer, "{row}: writer");
+        assert_eq!(columns[5], contract.readers, "{row}: readers");
+    }
+    let sum = field::bytes_per_texel();
+    assert!(source.contains(&format!("Together {}⅓ bytes a texel", sum.floor())), "the sum is {sum}");
+}

@@ -1,0 +1,213 @@
+//! Every composition of shaders, without a GPU: it parses, it validates, and its structs are laid out as their Rust twins are.
+
+use std::mem::{offset_of, size_of};
+
+use rilievo::field::Region;
+use rilievo::field::bins::{Member, Tile};
+use rilievo::field::compose::ComposeParams;
+use rilievo::field::normals::NormalsParams;
+use rilievo::field::pyramid::PyramidParams;
+use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
+use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
+use rilievo::gpu::Library;
+use rilievo::present::PresentParams;
+use rilievo::surface::channels::Channel;
+use rilievo::surface::probe::{Hit, Ray};
+use rilievo::surface::ray_map::LinearForm;
+use rilievo::surface::{self, Albedo, Shadow, Technique, View};
+use wgpu::naga;
+
+/// Every composition that the program can ask for.
+fn compositions() -> Vec<Vec<String>> {
+    let fixed: [&[&str]; 6] = [
+        &["common/region", "field/compose"],
+        &["common/region", "field/normals"],
+        &["common/region", "field/pyramid"],
+        &["field/stamp"],
+        &["field/wave"],
+        &["present"],
+    ];
+    let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
+    for filters in [false, true] {
+        for &technique in Technique::ALL {
+            for &shadow in Shadow::ALL {
+                for &albedo in Albedo::ALL {
+                    for entry in ["surface", "channels", "probe"] {
+                        all.push(surface::parts(filters, technique, shadow, albedo, entry));
+                    }
+                }
+            }
+        }
+    }
+    all
+}
+
+fn module(parts: &[String]) -> naga::Module {
+    let parts: Vec<_> = parts.iter().map(String::as_str).collect();
+    let composition = Library::embedded().compose(&parts).unwrap_or_else(|error| panic!("{parts:?}: {error}"));
+    composition.validate().unwrap_or_else(|error| panic!("{parts:?}: {error}"))
+}
+
+#[test]
+fn every_composition_parses_and_validates() {
+    for parts in compositions() {
+        module(&parts);
+    }
+}
+
+#[test]
+fn an_error_names_the_part_and_its_own_line() {
+    let mut library = Library::embedded();
+    library.replace("field/normals", "// one\n// two\nfn broken() -> f32 { return missing; }\n".to_owned());
+    let composition = library.compose(&["common/region", "field/normals"]).expect("both parts exist");
+    let error = composition.validate().expect_err("`missing` is nowhere defined").to_string();
+    assert!(error.starts_with("shaders/field/normals.wgsl:3: "), "{error}");
+    assert!(library.compose(&["field/nonsense"]).is_err());
+}
+
+/// A struct's layout: the offset of each field by name, and the size of the whole.
+#[derive(Debug, PartialEq)]
+struct Layout {
+    fields: Vec<(String, usize)>,
+    size: usize,
+}
+
+/// The layout of a Rust struct. Fields named `pad…` or `spare…` are padding, which WGSL need not name.
+macro_rules! layout {
+    ($type:ty { $($field:ident),+ $(,)? }) => {
+        Layout { fields: vec![$((stringify!($field).to_owned(), offset_of!($type, $field))),+], size: size_of::<$type>() }
+    };
+}
+
+fn is_padding(name: &str) -> bool {
+    name.starts_with("pad") || name.starts_with("spare")
+}
+
+fn wgsl_layout(module: &naga::Module, name: &str) -> Option<Layout> {
+    module.types.iter().find_map(|(_, candidate)| match &candidate.inner {
+        naga::TypeInner::Struct { members, span } if candidate.name.as_deref() == Some(name) => Some(Layout {
+            fields: members
+                .iter()
+                .map(|member| (member.name.clone().unwrap_or_default(), member.offset as usize))
+                .filter(|(field, _)| !is_padding(field))
+                .collect(),
+            size: *span as usize,
+        }),
+        _ => None,
+    })
+}
+
+/// Every struct that both sides know: its WGSL name and the layout of its Rust twin.
+fn twins() -> Vec<(&'static str, Layout)> {
+    vec![
+        ("LinearForm", layout!(LinearForm { exact, rest })),
+        (
+            "View",
+            layout!(View {
+                lattice_x,
+                lattice_y,
+                travel_x,
+                travel_y,
+                denominator,
+                field_size,
+                wrap,
+                step_cap,
+                plane_size_metres,
+                depth_metres,
+                nearest,
+                pom_samples_min,
+                pom_samples_max,
+                shadow_samples,
+                shadow_strength,
+                light_in_field,
+                light_is_up,
+                time_seconds,
+                eye_world,
+                specular,
+                light_world,
+                shininess,
+                light_radiance,
+                wave_amplitude,
+                sky,
+                texel_metres,
+                ground,
+                shows,
+                tint,
+                rest_height,
+                image_size,
+                supersampling,
+                first_row,
+            }),
+        ),
+        ("Region", layout!(Region { origin, extent })),
+        ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
+        ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
+        ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
+        ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
+        ("Ray", layout!(Ray { lattice, travel, height, rise })),
+        ("Hit", layout!(Hit { lattice, height, t, steps, status })),
+        ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
+        ("StampParams", layout!(StampParams { size, tile_count })),
+        ("StampRecord", layout!(StampRecord { height, level, alpha, irregularity, phase, soot, bare, profile, blend })),
+        ("StampTile", layout!(Tile { tile, first, count })),
+        ("StampMember", layout!(Member { centre, radius, disc })),
+        ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
+        ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
+        ("WaveTile", layout!(Tile { tile, first, count })),
+        ("WaveMember", layout!(Member { centre, radius, disc })),
+        ("WaveBatch", layout!(WaveBatch { first, count })),
+    ]
+}
+
+#[test]
+fn every_struct_is_laid_out_as_its_rust_twin() {
+    let modules: Vec<_> = compositions().iter().map(|parts| module(parts)).collect();
+    for (name, rust) in twins() {
+        let mut seen = 0;
+        for wgsl in modules.iter().filter_map(|module| wgsl_layout(module, name)) {
+            assert_eq!(wgsl, rust, "{name}: WGSL on the left, Rust on the right");
+            seen += 1;
+        }
+        assert!(seen > 0, "no shader has a struct {name}");
+    }
+}
+
+/// A uniform or storage struct that has no Rust twin in [`twins`] would be compared with nothing.
+#[test]
+fn every_struct_that_crosses_the_border_has_a_twin() {
+    let twins = twins();
+    for parts in compositions() {
+        let module = module(&parts);
+        for (_, variable) in module.global_variables.iter() {
+            if !matches!(variable.space, naga::AddressSpace::Uniform | naga::AddressSpace::Storage { .. }) {
+                continue;
+            }
+            let element = match module.types[variable.ty].inner {
+                naga::TypeInner::Array { base, .. } => base,
+                _ => variable.ty,
+            };
+            let crossing = &module.types[element];
+            if let (naga::TypeInner::Struct { .. }, Some(name)) = (&crossing.inner, &crossing.name) {
+                assert!(twins.iter().any(|(twin, _)| twin == name), "{parts:?}: {name} has no twin in the list");
+            }
+        }
+    }
+}
+
+/// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
+#[test]
+fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
+    let module = module(&["field/stamp".to_owned()]);
+    let in_shader = |name: &str| {
+        let (_, constant) = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name))?;
+        match module.global_expressions[constant.init] {
+            naga::Expression::Literal(naga::Literal::U32(value)) => Some(value),
+            _ => None,
+        }
+    };
+    let profiles = Profile::ALL.map(|profile| (format!("STAMP_{profile:?}").to_uppercase(), profile as u32));
+    let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
+    for (name, number) in profiles.into_iter().chain(blends) {
+        assert_eq!(in_shader(&name), Some(number), "{name}");
+    }
+}
