@@ -95,9 +95,10 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
         // … and a crossed border puts it on the border's other side.
         let crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
         cell = select(there, select(last + 1, first - 1, backward), crosses);
-        // Climb where that leaves a parent behind.
-        let leaves = select(node.y ^ (node.y + toward.y), node.x ^ (node.x + toward.x), crosses.x);
-        level = min(level + select(0, 1, u32(leaves) > 1u), top);
+        // Climb where that leaves a parent behind: never into a node that holds what was just left, or rounding could lead back.
+        let last_parent = max(nodes >> vec2u(1u), vec2i(1)) - 1;
+        let leaves = outermost | (min(node >> vec2u(1u), last_parent) != min((node + toward) >> vec2u(1u), last_parent));
+        level = min(level + select(0, 1, any(leaves & crosses)), top);
         if wraps {
             let over = select(vec2i(0), cells, cell >= cells) - select(vec2i(0), cells, cell < vec2i(0));
             cell -= over;

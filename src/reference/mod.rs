@@ -18,6 +18,7 @@ pub mod traversal;
 pub mod wave;
 
 pub use crate::scene::Addressing;
+pub use crate::surface::probe::Ray;
 
 /// A height field: the bilinear surface between texel centres at the integer lattice positions.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,20 +79,6 @@ pub fn address(texel: i64, size: u32, addressing: Addressing) -> usize {
     };
     // Both arms land in 0..size.
     texel as usize
-}
-
-/// A ray in field space; its parameter t is the height that it has climbed or fallen. Twin of `shaders/surface/ray.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Ray {
-    /// Lattice position at t = 0.
-    pub lattice: [f32; 2],
-    /// Lattice displacement while t grows by 1.
-    pub travel: [f32; 2],
-    /// Height at t = 0.
-    pub height: f32,
-    /// −1 for a view ray, which falls, +1 for a shadow ray, which climbs.
-    pub rise: f32,
 }
 
 impl Ray {

@@ -7,7 +7,7 @@ use rilievo::scene::Addressing;
 
 use super::{capture, channels, manifest};
 use crate::support::gpu::gpu;
-use crate::support::tolerances::{PENETRATION, lattice_bound};
+use crate::support::tolerances::{hit_height, lattice_bound};
 
 /// What the manifest says of one frame.
 struct Seen {
@@ -116,6 +116,7 @@ fn positions_are_where_the_ray_first_meets_the_surface() {
                 let t = ray.meets(&seen.field, 0.0, 1.0).expect("a ray that enters the slab ends in it");
                 let truth = ray.lattice_at(t);
                 let error = (truth[0] - found[0]).hypot(truth[1] - found[1]);
+                if std::env::var_os("DBG").is_some() && error>bound { println!("DBG {x},{y} err {error:.3e} bound {bound:.3e} ratio {:.2} t {t} gapslope {:e} largest {largest}", error/bound, (ray.gap(&seen.field,t+1e-6)-ray.gap(&seen.field,t-1e-6))/2e-6/ray.travel[0].hypot(ray.travel[1])); }
                 if error <= bound {
                     continue;
                 }
@@ -124,7 +125,7 @@ fn positions_are_where_the_ray_first_meets_the_surface() {
                 tangent += 1;
                 let t_found = 1.0 - (f64::from(ys[index]) / seen.depth + 1.0);
                 let (lowest, steepness) = ray.closest(&seen.field, 0.0, t_found.clamp(0.0, 1.0));
-                let slack = PENETRATION + bound * steepness;
+                let slack = hit_height(bound, steepness);
                 assert!(
                     lowest >= -slack && ray.gap(&seen.field, t_found).abs() <= slack,
                     "camera {camera}, field {field_name}, pixel {x}, {y}: {error:e} cells of {bound:e} allowed, t {t_found} for {t}, \
