@@ -1,5 +1,6 @@
 //! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
 
+pub mod adapters;
 pub mod capture;
 mod progress;
 pub mod stress;
@@ -52,8 +53,7 @@ pub fn open_device(common: &CommonOptions) -> Result<Gpu, AdapterError> {
 
 /// Which adapter the command line and the environment ask for.
 pub fn preference(common: &CommonOptions) -> Preference {
-    Preference { name: common.machine.adapter.clone(), backend: common.machine.backend, ..Preference::default() }
-        .with_environment()
+    common.machine.preference()
 }
 
 /// Loads the scene that the command line asks for.
