@@ -21,6 +21,8 @@ pub struct Camera {
     pub vertical_fov_radians: f64,
     /// Nearest visible distance along −z, metres.
     pub near_metres: f64,
+    /// By how much the whole picture is shifted, picture heights, right and down. Only a window shifts it, to make room for a panel.
+    pub lens_shift: DVec2,
 }
 
 impl Camera {
@@ -31,7 +33,8 @@ impl Camera {
     pub fn look_at(eye: DVec3, target: DVec3, vertical_fov_radians: f64, near_metres: f64) -> Self {
         let back = (eye - target).try_normalize().unwrap_or(DVec3::Z);
         let right = DVec3::new(back.z, 0.0, -back.x).try_normalize().unwrap_or(DVec3::X);
-        Self { world_from_view: world_from_view(eye, right, back), vertical_fov_radians, near_metres }
+        let world_from_view = world_from_view(eye, right, back);
+        Self { world_from_view, vertical_fov_radians, near_metres, lens_shift: DVec2::ZERO }
     }
 
     /// The camera of a scene, `time_seconds` after its start.
@@ -56,8 +59,8 @@ impl Camera {
     pub fn direction(&self, pixel: DVec2, image_size: [u32; 2]) -> DVec3 {
         let size = DVec2::new(f64::from(image_size[0]), f64::from(image_size[1]));
         let half_height = (0.5 * self.vertical_fov_radians).tan();
-        let x = (2.0 * pixel.x - size.x) / size.y * half_height;
-        let y = (size.y - 2.0 * pixel.y) / size.y * half_height;
+        let x = ((2.0 * pixel.x - size.x) / size.y - 2.0 * self.lens_shift.x) * half_height;
+        let y = ((size.y - 2.0 * pixel.y) / size.y + 2.0 * self.lens_shift.y) * half_height;
         (self.world_from_view * DVec4::new(x, y, -1.0, 0.0)).truncate().normalize()
     }
 }
@@ -70,6 +73,14 @@ fn turn_about(eye: DVec3, target: DVec3, radians: f64) -> DVec3 {
     let (sin, cos) = radians.sin_cos();
     let arm = eye - target;
     DVec3::new(target.x + arm.x * cos - arm.z * sin, eye.y, target.z + arm.x * sin + arm.z * cos)
+}
+
+/// By how much an eye moves, for each metre of distance, so that what lies at that distance moves by `drag` in the picture: picture
+/// heights, right and down.
+fn shift(camera: &Camera, drag: DVec2) -> DVec3 {
+    let half_height = (0.5 * camera.vertical_fov_radians).tan();
+    let (right, up) = (camera.world_from_view.x_axis.truncate(), camera.world_from_view.y_axis.truncate());
+    2.0 * half_height * (up * drag.y - right * drag.x)
 }
 
 /// The matrix of unit axes: `right` level and perpendicular to `back`.
@@ -132,6 +143,7 @@ pub struct Rig {
     scene: scene::Camera,
     motion: Motion,
     fly_metres_per_second: f64,
+    aside: DVec2,
 }
 
 impl Rig {
@@ -146,7 +158,7 @@ impl Rig {
 
     /// Follows the camera of a scene.
     pub fn new(scene: scene::Camera) -> Self {
-        Self { scene, motion: Motion::Scene, fly_metres_per_second: 0.5 }
+        Self { scene, motion: Motion::Scene, fly_metres_per_second: 0.5, aside: DVec2::ZERO }
     }
 
     /// Back to the scene's own camera.
@@ -174,8 +186,19 @@ impl Rig {
         self.scene.vertical_fov_degrees = degrees;
     }
 
+    /// Keeps what the camera looks at aside from the middle of the picture, as [`Camera::lens_shift`]: in the middle of what a panel
+    /// leaves free.
+    pub fn set_aside(&mut self, aside: DVec2) {
+        self.aside = aside;
+    }
+
     /// The camera, `time_seconds` after the scene's start.
     pub fn camera(&self, time_seconds: f64) -> Camera {
+        Camera { lens_shift: self.aside, ..self.centred(time_seconds) }
+    }
+
+    /// The camera, with its target in the middle of the picture whatever is aside.
+    pub fn centred(&self, time_seconds: f64) -> Camera {
         let (eye, heading) = match self.motion {
             Motion::Scene => return Camera::at(&self.scene, time_seconds),
             Motion::Orbit { target, distance, heading } => (target + distance * heading.direction(), heading),
@@ -185,13 +208,14 @@ impl Rig {
             world_from_view: world_from_view(eye, heading.right(), heading.direction()),
             vertical_fov_radians: self.scene.vertical_fov_degrees.to_radians(),
             near_metres: self.scene.near_metres,
+            lens_shift: DVec2::ZERO,
         }
     }
 
     /// Takes hold, at `time_seconds`: an orbit that starts where the scene's camera is.
     fn take_hold(&mut self, time_seconds: f64) {
         if self.motion == Motion::Scene {
-            let camera = self.camera(time_seconds);
+            let camera = self.centred(time_seconds);
             let target = DVec3::from(self.scene.target);
             let distance = camera.eye().distance(target).max(Self::DISTANCE_METRES[0]);
             self.motion = Motion::Orbit { target, distance, heading: Heading::behind(&camera) };
@@ -218,10 +242,7 @@ impl Rig {
     /// down.
     pub fn pan(&mut self, drag: DVec2, time_seconds: f64) {
         self.take_hold(time_seconds);
-        let camera = self.camera(time_seconds);
-        let half_height = (0.5 * camera.vertical_fov_radians).tan();
-        let (right, up) = (camera.world_from_view.x_axis.truncate(), camera.world_from_view.y_axis.truncate());
-        let shift = 2.0 * half_height * (up * drag.y - right * drag.x);
+        let shift = shift(&self.centred(time_seconds), drag);
         match &mut self.motion {
             Motion::Scene => {}
             Motion::Orbit { target, distance, .. } => {
@@ -358,6 +379,18 @@ mod tests {
         let height = 2.0 * -target.z * (0.5 * camera.vertical_fov_radians).tan();
         assert!((target.x / height - 0.25).abs() < NEAR && (target.y / height - 0.125).abs() < NEAR, "{target}");
         assert!(camera.forward().abs_diff_eq(before.forward(), NEAR));
+    }
+
+    #[test]
+    fn shifts_the_picture_and_nothing_else() {
+        let mut rig = Rig::new(tilted());
+        let camera = rig.camera(0.0);
+        rig.set_aside(DVec2::new(0.25, -0.125));
+        let shifted = rig.camera(0.0);
+        let direction = |camera: &Camera, x, y| camera.direction(DVec2::new(x, y), [640, 480]);
+        assert!(direction(&shifted, 320.0 + 120.0, 240.0 - 60.0).abs_diff_eq(camera.forward(), NEAR));
+        assert!(direction(&shifted, 10.0 + 120.0, 470.0 - 60.0).abs_diff_eq(direction(&camera, 10.0, 470.0), NEAR));
+        assert_eq!(rig.centred(0.0), camera);
     }
 
     #[test]

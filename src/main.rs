@@ -47,7 +47,7 @@ fn silence_device_selection() {
 /// Runs one mode.
 fn run(command: &Command) -> anyhow::Result<()> {
     match command {
-        Command::Live(_) => anyhow::bail!("no window yet"),
+        Command::Live(options) => modes::live::run(options)?,
         Command::Capture(options) => modes::capture::run(options, command.verbosity())?,
         Command::Stress(options) => io::print(&modes::stress::run(options, command.verbosity())?)?,
         Command::Adapters(options) => io::print(&modes::adapters::list(&options.machine.preference())?)?,

@@ -356,9 +356,9 @@ impl Default for Light {
             azimuth_degrees: 215.0,
             elevation_degrees: 40.0,
             colour: [1.0, 0.95, 0.88],
-            intensity: 2.2,
-            sky: [0.42, 0.52, 0.68],
-            ground: [0.16, 0.13, 0.11],
+            intensity: 1.35,
+            sky: [0.30, 0.37, 0.47],
+            ground: [0.13, 0.10, 0.08],
             turn_degrees_per_second: 0.0,
         }
     }

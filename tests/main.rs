@@ -2,6 +2,7 @@
 //!
 //! - `house`, `shaders`: the house's rules, without a GPU.
 //! - `field`, `surface`: proofs of what the kernels compute, on the GPU, against their references in f64.
+//! - `modes`: the panel, driven without a GPU, and the program in a real window, where there is a display to open one on.
 //! - `support`: what they share; every tolerance stands once, in `support/tolerances.rs`.
 //!
 //! Tests run on a software adapter first, since that is what every machine can have. Where there is none they fail in CI and say
@@ -9,6 +10,7 @@
 
 mod field;
 mod house;
+mod modes;
 mod shaders;
 mod support;
 mod surface;

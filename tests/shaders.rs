@@ -2,12 +2,13 @@
 
 use std::mem::{offset_of, size_of};
 
+use rilievo::field::Region;
+use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::ComposeParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
-use rilievo::field::stamp::{StampParams, StampRecord};
+use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
-use rilievo::field::{Region, bins::Tile};
 use rilievo::gpu::Library;
 use rilievo::present::PresentParams;
 use rilievo::surface::channels::Channel;
@@ -147,14 +148,13 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
         ("StampParams", layout!(StampParams { size, tile_count })),
-        (
-            "StampRecord",
-            layout!(StampRecord { centre, shift, radius, height, level, alpha, phase, irregularity, soot, bare, profile, blend }),
-        ),
+        ("StampRecord", layout!(StampRecord { height, level, alpha, irregularity, phase, soot, bare, profile, blend })),
         ("StampTile", layout!(Tile { tile, first, count })),
+        ("StampMember", layout!(Member { centre, radius, disc })),
         ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
-        ("WaveImpulse", layout!(WaveImpulse { centre, shift, inverse_radius, strength, ring })),
+        ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
         ("WaveTile", layout!(Tile { tile, first, count })),
+        ("WaveMember", layout!(Member { centre, radius, disc })),
         ("WaveBatch", layout!(WaveBatch { first, count })),
     ]
 }
@@ -191,5 +191,23 @@ fn every_struct_that_crosses_the_border_has_a_twin() {
                 assert!(twins.iter().any(|(twin, _)| twin == name), "{parts:?}: {name} has no twin in the list");
             }
         }
+    }
+}
+
+/// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
+#[test]
+fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
+    let module = module(&["field/stamp".to_owned()]);
+    let in_shader = |name: &str| {
+        let (_, constant) = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name))?;
+        match module.global_expressions[constant.init] {
+            naga::Expression::Literal(naga::Literal::U32(value)) => Some(value),
+            _ => None,
+        }
+    };
+    let profiles = Profile::ALL.map(|profile| (format!("STAMP_{profile:?}").to_uppercase(), profile as u32));
+    let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
+    for (name, number) in profiles.into_iter().chain(blends) {
+        assert_eq!(in_shader(&name), Some(number), "{name}");
     }
 }

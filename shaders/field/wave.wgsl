@@ -76,12 +76,15 @@ fn wave_step(@builtin(global_invocation_id) id: vec3u) {
 
 // An impulse: a dent and the ring of water that it pushed aside.
 struct WaveImpulse {
-    centre: vec2f,             // lattice coordinates
-    shift: vec2i,              // texels from the field to the image of it that the centre lies in
-    inverse_radius: f32,       // 1/texels
     strength: f32,             // u at the centre
     ring: f32,                 // makes the sum over the free texels zero; computed on the CPU
-    spare: u32,
+}
+
+// An impulse as a tile sees it.
+struct WaveMember {
+    centre: vec2f,             // texels from the tile's first one
+    radius: f32,               // texels
+    disc: u32,                 // in `impulses`
 }
 
 struct WaveTile {
@@ -98,7 +101,7 @@ struct WaveBatch {
 // A splash binds the current state to be written, at the place where a step binds it to be read.
 @group(1) @binding(3) var current_as_well: texture_storage_2d<r32float, read_write>;
 @group(1) @binding(4) var<storage, read> tiles: array<WaveTile>;
-@group(1) @binding(5) var<storage, read> members: array<u32>;
+@group(1) @binding(5) var<storage, read> members: array<WaveMember>;
 @group(1) @binding(6) var<storage, read> impulses: array<WaveImpulse>;
 @group(1) @binding(7) var<uniform> batch: WaveBatch;
 
@@ -120,8 +123,9 @@ fn wave_splash(
     }
     var sum = 0.0;
     for (var i = tile.first; i < tile.first + tile.count; i++) {
-        let impulse = impulses[members[i]];
-        let offset = (vec2f(vec2i(texel) + impulse.shift) - impulse.centre) * impulse.inverse_radius;
+        let member = members[i];
+        let impulse = impulses[member.disc];
+        let offset = (vec2f(local.xy) - member.centre) / member.radius;
         let s = dot(offset, offset);
         let w = max(0.0, 1.0 - s);
         sum += impulse.strength * w * w * (1.0 - impulse.ring * s);

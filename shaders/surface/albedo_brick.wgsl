@@ -25,5 +25,6 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let mortar = vec3f(0.40, 0.375, 0.335) * mix(0.80, 1.05, grain);
     let is_brick = smoothstep(-0.0012, 0.0012, min(from_edge.x, from_edge.y) + 0.0022 * (grain - 0.5));
     let broken = mix(vec3f(0.56, 0.50, 0.44), vec3f(0.66, 0.30, 0.175), is_brick) * mix(0.85, 1.15, grain);
-    return sooty(mix(mix(mortar, face, is_brick), broken, stamped.g), stamped.r);
+    // Soot settles on the face, less on what broke off clean.
+    return sooty(mix(mix(mortar, face, is_brick), broken, stamped.g), stamped.r * (1.0 - 0.75 * stamped.g));
 }

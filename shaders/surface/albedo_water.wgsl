@@ -15,13 +15,17 @@ fn water_sky(direction: vec3f) -> vec3f {
 // Light that arrives on the floor under a lattice position, over what would arrive under still water: a crest gathers it, a
 // trough spreads it (paraxial: the floor's image of a small patch shrinks by 1 − distance · (1 − 1/n) · curvature).
 fn water_caustic(lattice: vec2f) -> f32 {
+    // Under a post it is dark.
+    if stamped_matter(lattice).b > 0.02 {
+        return 0.35;
+    }
     let spread = 3.0;
     let here = load_surface(lattice);
     let around = sample_height(lattice + vec2f(spread, 0.0)) + sample_height(lattice - vec2f(spread, 0.0))
         + sample_height(lattice + vec2f(0.0, spread)) + sample_height(lattice - vec2f(0.0, spread));
     let texels = spread * view.texel_metres;
     let curvature = (around - 4.0 * here) * view.depth_metres / (texels * texels);
-    return clamp(1.0 / max(1.0 + 0.25 * WATER_FLOOR_METRES * curvature, 0.22), 0.3, 4.0);
+    return clamp(1.0 / max(1.0 + 0.25 * WATER_FLOOR_METRES * curvature, 0.22), 0.45, 2.6);
 }
 
 fn water_floor(metres: vec2f) -> vec3f {
@@ -30,7 +34,7 @@ fn water_floor(metres: vec2f) -> vec3f {
     let inside = 0.5 - abs(fract(position) - 0.5);
     let shade = hash_cell(tile, 61u);
     let accent = step(0.93, hash_cell(tile, 62u));
-    let glaze = mix(vec3f(0.13, 0.46, 0.50), vec3f(0.26, 0.64, 0.66), shade);
+    let glaze = mix(vec3f(0.16, 0.42, 0.47), vec3f(0.27, 0.55, 0.58), shade);
     let tile_colour = mix(glaze, vec3f(0.05, 0.20, 0.34), accent);
     return mix(vec3f(0.62, 0.66, 0.64), tile_colour, smoothstep(0.025, 0.06, min(inside.x, inside.y)));
 }
@@ -60,7 +64,7 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let caustic = water_caustic(crossed / view.texel_metres - 0.5);
     let lit = view.light_radiance * max(view.light_world.y, 0.0) * mix(0.35, 1.0, point.visibility) * caustic;
     let absorbed = exp(-vec3f(5.2, 1.3, 0.9) * reach);
-    let floor_radiance = water_floor(floor_metres) * view.tint * (0.85 * lit + 0.55 * view.sky) * absorbed;
+    let floor_radiance = water_floor(floor_metres) * view.tint * (0.62 * lit + 0.50 * view.sky) * absorbed;
     let glow = floor_radiance * (1.0 - mirror) + water_sky(reflected) * mirror;
     return Matter(vec3f(0.0), 0.0, view.shininess, glow);
 }

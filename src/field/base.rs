@@ -148,19 +148,22 @@ impl Terrain {
 
     /// Height at a position in widths of the plane.
     fn height(&self, u: f64, v: f64) -> f64 {
-        let noise = |scale: f64, salt: u32, octaves| fractal_noise(u * scale, v * scale, self.salt.wrapping_add(salt), octaves);
-        let warp = [0.10 * (noise(3.0, 20, 3) - 0.5), 0.10 * (noise(3.0, 30, 3) - 0.5)];
-        let ridge = ridged_noise((u + warp[0]) * 3.2, (v + warp[1]) * 3.2, self.salt.wrapping_add(40), 6);
-        let from_middle = (u - 0.5).hypot(v - 0.5);
-        // A massif in the middle, foothills round it.
-        let massif = 1.0 - smoothstep(0.05, 0.52, from_middle);
-        let land = 0.10 + 0.78 * ridge * (0.30 + 0.70 * massif) + 0.10 * (noise(7.0, 60, 4) - 0.5);
-        // Terraces: level treads, steep risers, where the mask says so.
-        let tread = 0.085;
+        let noise =
+            |scale: f64, salt: u32, octaves| gradient_octaves(u * scale, v * scale, self.salt.wrapping_add(salt), octaves);
+        let warp = [0.16 * noise(2.3, 20, 3), 0.16 * noise(2.3, 30, 3)];
+        let (x, y) = (u + warp[0], v + warp[1]);
+        // A massif in the middle, a plain round it.
+        let from_middle = (x - 0.49).hypot(1.15 * (y - 0.47));
+        let massif = 1.0 - smoothstep(0.06, 0.47, from_middle);
+        let ridges = ridged_octaves(x * 4.1, y * 4.1, self.salt.wrapping_add(40), 7);
+        let plain = 0.10 + 0.05 * noise(3.0, 60, 5) + 0.012 * noise(34.0, 70, 3);
+        let land = plain + massif * (0.16 + 0.70 * ridges * (0.45 + 0.55 * massif));
+        // Terraces on one flank: level treads, steep risers.
+        let tread = 0.062;
         let step = (land / tread).floor();
-        let terraced = tread * (step + smoothstep(0.80, 0.97, land / tread - step));
-        let mask = smoothstep(0.46, 0.56, noise(2.6, 80, 2));
-        let mut height = land + (terraced - land) * mask;
+        let terraced = tread * (step + smoothstep(0.74, 0.96, land / tread - step));
+        let flank = smoothstep(0.02, 0.10, (u - 0.53) + 0.9 * (v - 0.58)) * smoothstep(0.12, 0.17, land);
+        let mut height = land + (terraced - land) * flank;
         height = height.max(stair(u, v)).max(columns(u, v));
         for [x, y, base, top] in &self.spikes {
             let distance = (u - x).hypot(v - y);
@@ -222,22 +225,56 @@ fn value_noise(x: f64, y: f64, salt: u32) -> f64 {
 
 /// Octaves of value noise, in [0, 1).
 fn fractal_noise(x: f64, y: f64, salt: u32, octaves: u32) -> f64 {
-    octave_sum(x, y, salt, octaves, |noise| noise)
-}
-
-/// Octaves of noise folded at its middle: sharp crests, in [0, 1].
-fn ridged_noise(x: f64, y: f64, salt: u32, octaves: u32) -> f64 {
-    octave_sum(x, y, salt, octaves, |noise| (1.0 - (2.0 * noise - 1.0).abs()).powi(2))
-}
-
-fn octave_sum(x: f64, y: f64, salt: u32, octaves: u32, shape: impl Fn(f64) -> f64) -> f64 {
-    let (mut sum, mut total, mut weight, mut x, mut y) = (0.0, 0.0, 1.0, x, y);
+    let (mut sum, mut total, mut weight, mut at) = (0.0, 0.0, 1.0, [x, y]);
     for octave in 0..octaves {
-        sum += weight * shape(value_noise(x, y, salt.wrapping_add(octave)));
+        sum += weight * value_noise(at[0], at[1], salt.wrapping_add(octave));
         total += weight;
-        // Turned by an angle whose tangent is 3/4: octaves share no axis, so the lattice does not show.
-        (x, y) = (1.6 * x - 1.2 * y + 17.3, 1.2 * x + 1.6 * y + 5.1);
         weight *= 0.5;
+        at = next_octave(at);
     }
     sum / total
+}
+
+/// Gradient noise (Perlin 1985, with the quintic of 2002) in about [−1, 1], zero at lattice points.
+fn gradient_noise(x: f64, y: f64, salt: u32) -> f64 {
+    let (i, j) = (x.floor(), y.floor());
+    let (u, v) = (x - i, y - j);
+    let corner = |dx: i32, dy: i32| {
+        let angle = TAU * hash_cell([(i as i32).wrapping_add(dx), (j as i32).wrapping_add(dy)], salt);
+        angle.cos() * (u - f64::from(dx)) + angle.sin() * (v - f64::from(dy))
+    };
+    let fade = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+    let (s, t) = (fade(u), fade(v));
+    let (low, high) = (corner(0, 0) + s * (corner(1, 0) - corner(0, 0)), corner(0, 1) + s * (corner(1, 1) - corner(0, 1)));
+    1.4 * (low + t * (high - low))
+}
+
+/// Octaves of gradient noise, in about [−1, 1].
+fn gradient_octaves(x: f64, y: f64, salt: u32, octaves: u32) -> f64 {
+    let (mut sum, mut weight, mut at) = (0.0, 0.5, [x, y]);
+    for octave in 0..octaves {
+        sum += weight * gradient_noise(at[0], at[1], salt.wrapping_add(octave));
+        weight *= 0.5;
+        at = next_octave(at);
+    }
+    sum
+}
+
+/// Ridges: octaves folded at zero, each the rougher the higher the ground (Musgrave's ridged multifractal), in about [0, 1].
+fn ridged_octaves(x: f64, y: f64, salt: u32, octaves: u32) -> f64 {
+    let (mut sum, mut weight, mut share, mut at) = (0.0, 0.5, 1.0, [x, y]);
+    for octave in 0..octaves {
+        let crest = 1.0 - gradient_noise(at[0], at[1], salt.wrapping_add(octave)).abs();
+        let crest = crest * crest * share;
+        sum += weight * crest;
+        share = (1.6 * crest).clamp(0.0, 1.0);
+        weight *= 0.5;
+        at = next_octave(at);
+    }
+    sum
+}
+
+/// Twice as fine, and turned by an angle whose tangent is 3/4: octaves share no axis, so the lattice does not show.
+fn next_octave([x, y]: [f64; 2]) -> [f64; 2] {
+    [1.6 * x - 1.2 * y + 17.3, 1.2 * x + 1.6 * y + 5.1]
 }

@@ -1,4 +1,4 @@
-//! Binning discs into square tiles, on the CPU: which tiles they touch, and in which order each tile must gather them.
+//! Binning discs into tiles, on the CPU: which tiles they touch, and in which order each tile must gather them.
 //!
 //! A counting sort by tile, stable: within a tile the discs keep the order of their submission, so that ordered blends are
 //! deterministic. Where the field wraps, a disc over a border is gathered once for each image of the field that it covers.
@@ -17,13 +17,17 @@ pub struct Disc {
     pub radius: f32,
 }
 
-/// A disc, as one image of the field sees it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Image {
-    /// Which of the discs.
+/// A disc as a tile sees it: what the shader decides by whether a texel lies within.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Member {
+    /// The disc's centre, in texels from the tile's first one; in the image of the field that this is about. Small numbers, so that
+    /// nothing is lost where the field wraps.
+    pub centre: [f32; 2],
+    /// The disc's radius, texels.
+    pub radius: f32,
+    /// Which of the discs, counted from the last [`Bins::clear`].
     pub disc: u32,
-    /// What to add to a texel of the field to come to this image, texels. Kept apart from the centre, which would lose precision.
-    pub shift: [i32; 2],
 }
 
 /// A tile that discs touch, and where its members stand.
@@ -59,14 +63,13 @@ pub enum BinError {
 /// The tiles that some discs touch. Its vectors keep their capacity: a steady state allocates nothing.
 #[derive(Debug, Default)]
 pub struct Bins {
-    /// The discs' images, in the order of submission.
-    pub images: Vec<Image>,
     /// The touched tiles, row by row within a batch.
     pub tiles: Vec<Tile>,
-    /// Indices into `images`, tile by tile.
-    pub members: Vec<u32>,
+    /// What each gathers, tile by tile.
+    pub members: Vec<Member>,
+    discs: u32,
     counts: Vec<u32>,
-    pairs: Vec<(u32, u32)>,
+    pairs: Vec<(u32, Member)>,
 }
 
 /// What one call of [`Bins::add`] appended.
@@ -91,42 +94,41 @@ pub struct Ground {
     pub size: [u32; 2],
     /// Whether it repeats beyond its border.
     pub wrap: bool,
-    /// Side of a tile, texels.
-    pub tile_texels: u32,
+    /// Width and height of a tile, texels.
+    pub tile: [u32; 2],
 }
 
 impl Bins {
     /// Forgets everything but the capacity.
     pub fn clear(&mut self) {
-        self.images.clear();
         self.tiles.clear();
         self.members.clear();
+        self.discs = 0;
     }
 
     /// Appends a batch of discs: its tiles list its discs alone. `limit` is the most members that all batches together may have.
     pub fn add(&mut self, ground: Ground, discs: impl Iterator<Item = Disc>, limit: u64) -> Result<Batch, BinError> {
-        let columns = ground.size[0].div_ceil(ground.tile_texels);
-        let rows = ground.size[1].div_ceil(ground.tile_texels);
+        let [columns, rows] = [0, 1].map(|axis| ground.size[axis].div_ceil(ground.tile[axis]));
         let first_tile = self.tiles.len() as u32;
         let mut dirty = Dirty::Nothing;
 
         self.pairs.clear();
-        let mut discs_seen = 0;
-        let mut excess = 0;
-        for (index, disc) in discs.enumerate() {
-            discs_seen = index + 1;
+        let (mut seen, mut excess) = (0, 0);
+        for disc in discs {
+            seen += 1;
             let room = limit.saturating_sub((self.members.len() + self.pairs.len()) as u64);
             let estimate = tile_estimate(ground, disc);
             if excess > 0 || estimate > room as f64 {
                 // Go on counting, for the message, without listing. The cast saturates.
                 excess += estimate as u64;
-                continue;
+            } else {
+                self.add_disc(ground, disc, &mut dirty);
             }
-            self.add_disc(ground, index as u32, disc, &mut dirty);
+            self.discs += 1;
         }
         if excess > 0 {
             let entries = (self.members.len() + self.pairs.len()) as u64 + excess;
-            return Err(BinError::TooMany { discs: discs_seen, entries, limit });
+            return Err(BinError::TooMany { discs: seen, entries, limit });
         }
 
         // The counting sort: how many, then where each tile's members begin, then the members.
@@ -144,49 +146,45 @@ impl Bins {
                 (*count, first) = (first, first + *count);
             }
         }
-        self.members.resize(first as usize, 0);
-        for (tile, image) in &self.pairs {
+        self.members.resize(first as usize, Member::zeroed());
+        for (tile, member) in &self.pairs {
             let place = &mut self.counts[*tile as usize];
-            self.members[*place as usize] = *image;
+            self.members[*place as usize] = *member;
             *place += 1;
         }
         Ok(Batch { first_tile, tile_count: self.tiles.len() as u32 - first_tile, dirty })
     }
 
-    /// Lists the images of one disc and the tiles that each touches.
-    fn add_disc(&mut self, ground: Ground, index: u32, disc: Disc, dirty: &mut Dirty) {
+    /// Lists the tiles that one disc touches, in each image of the field that it meets.
+    fn add_disc(&mut self, ground: Ground, disc: Disc, dirty: &mut Dirty) {
         let Some([xs, ys]) = images(ground, disc) else { return };
         let radius = f64::from(disc.radius) + SLACK;
-        let tile = f64::from(ground.tile_texels);
-        let columns = ground.size[0].div_ceil(ground.tile_texels);
+        let tile = ground.tile.map(f64::from);
+        let columns = ground.size[0].div_ceil(ground.tile[0]);
         // The casts hold: the caller has bounded the number of images, and `images` their distance.
         for y in ys.0 as i64..=ys.1 as i64 {
             for x in xs.0 as i64..=xs.1 as i64 {
-                let shift = [x * i64::from(ground.size[0]), y * i64::from(ground.size[1])];
-                let centre = [0, 1].map(|axis| f64::from(disc.centre[axis]) - shift[axis] as f64);
-                // The texels that may lie within: never empty, since `images` lists only images that the disc's box meets.
+                let image = [x, y].map(|image| image as f64);
+                let centre = [0, 1].map(|axis| f64::from(disc.centre[axis]) - image[axis] * f64::from(ground.size[axis]));
+                // The texels that may lie within; none if the disc slips between two rows of them.
                 let first = [0, 1].map(|axis| (centre[axis] - radius).ceil().max(0.0));
                 let last = [0, 1].map(|axis| (centre[axis] + radius).floor().min(f64::from(ground.size[axis] - 1)));
                 if first[0] > last[0] || first[1] > last[1] {
                     continue;
                 }
-                let origin = first.map(|value| value as u32);
-                let extent = [0, 1].map(|axis| last[axis] as u32 - origin[axis] + 1);
-                dirty.add(Region { origin, extent }, ground.size);
-
-                let image = self.images.len() as u32;
-                self.images.push(Image { disc: index, shift: shift.map(|value| value as i32) });
-                let (tiles_first, tiles_last) =
-                    (first.map(|value| (value / tile) as u32), last.map(|value| (value / tile) as u32));
-                for row in tiles_first[1]..=tiles_last[1] {
-                    for column in tiles_first[0]..=tiles_last[0] {
+                let (origin, end) = (first.map(|value| value as u32), last.map(|value| value as u32 + 1));
+                dirty.add(Region { origin, extent: [end[0] - origin[0], end[1] - origin[1]] }, ground.size);
+                let (low, high) =
+                    ([0, 1].map(|axis| origin[axis] / ground.tile[axis]), [0, 1].map(|axis| (end[axis] - 1) / ground.tile[axis]));
+                for row in low[1]..=high[1] {
+                    for column in low[0]..=high[0] {
+                        let from_tile = [centre[0] - f64::from(column) * tile[0], centre[1] - f64::from(row) * tile[1]];
                         // The corners of the box that the disc does not reach are left out.
-                        let gap = |axis: usize, index: u32| {
-                            let low = f64::from(index) * tile;
-                            (low - centre[axis]).max(centre[axis] - (low + tile - 1.0)).max(0.0)
-                        };
-                        if gap(0, column).powi(2) + gap(1, row).powi(2) < radius * radius {
-                            self.pairs.push((row * columns + column, image));
+                        let gap = [0, 1].map(|axis| (-from_tile[axis]).max(from_tile[axis] - (tile[axis] - 1.0)).max(0.0));
+                        if gap[0] * gap[0] + gap[1] * gap[1] < radius * radius {
+                            let centre = from_tile.map(|from_tile| from_tile as f32);
+                            let member = Member { centre, radius: disc.radius, disc: self.discs };
+                            self.pairs.push((row * columns + column, member));
                         }
                     }
                 }
@@ -220,8 +218,8 @@ fn tile_estimate(ground: Ground, disc: Disc) -> f64 {
     let Some(ranges) = images(ground, disc) else { return 0.0 };
     let along = |axis: usize| {
         let (first, last) = ranges[axis];
-        let tiles = f64::from(ground.size[axis].div_ceil(ground.tile_texels));
-        let across = (2.0 * (f64::from(disc.radius) + SLACK) / f64::from(ground.tile_texels)).floor() + 2.0;
+        let tiles = f64::from(ground.size[axis].div_ceil(ground.tile[axis]));
+        let across = (2.0 * (f64::from(disc.radius) + SLACK) / f64::from(ground.tile[axis])).floor() + 2.0;
         (last - first + 1.0) * across.min(tiles)
     };
     along(0) * along(1)

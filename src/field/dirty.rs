@@ -15,8 +15,7 @@ pub enum Dirty {
 }
 
 impl Dirty {
-    /// The most regions that are kept apart. Each is a dispatch of every pass that follows, and a dispatch costs about as much
-    /// as a few thousand texels.
+    /// The most regions that are kept apart: each is a dispatch of every pass that follows, and of every level of the pyramid.
     pub const MAX_REGIONS: usize = 8;
 
     /// Adds a region of a field of this size, merging what touches, and the nearest where there are too many.

@@ -6,7 +6,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
+use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use super::{Dirty, Field};
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
 use crate::scene::Addressing;
@@ -125,28 +125,27 @@ impl Stamp {
     pub const fn disc(&self) -> Disc {
         Disc { centre: self.centre, radius: self.radius }
     }
+
+    /// Whether it is round and leaves the material alone.
+    fn is_plain(&self) -> bool {
+        self.irregularity == 0.0 && self.soot == 0.0 && self.bare == 0.0
+    }
 }
 
-/// A stamp as the shader reads it, once for each image of the field that it covers.
+/// What the shader needs of a stamp besides its disc.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct StampRecord {
-    /// [`Stamp::centre`].
-    pub centre: [f32; 2],
-    /// [`Image::shift`].
-    pub shift: [i32; 2],
-    /// [`Stamp::radius`].
-    pub radius: f32,
     /// [`Stamp::height`].
     pub height: f32,
     /// [`Stamp::level`].
     pub level: f32,
     /// [`Stamp::alpha`].
     pub alpha: f32,
-    /// [`Stamp::phase`] as a unit complex number: the shader needs no trigonometry, whose precision WGSL leaves open.
-    pub phase: [f32; 2],
     /// [`Stamp::irregularity`].
     pub irregularity: f32,
+    /// [`Stamp::phase`] as a unit complex number: the shader needs no trigonometry, whose precision WGSL leaves open.
+    pub phase: [f32; 2],
     /// [`Stamp::soot`].
     pub soot: f32,
     /// [`Stamp::bare`].
@@ -155,28 +154,21 @@ pub struct StampRecord {
     pub profile: u32,
     /// [`Stamp::blend`].
     pub blend: u32,
-    /// Fills the last 16 bytes.
-    pub spare: u32,
 }
 
-impl StampRecord {
-    /// What the shader needs of a stamp in one image of the field.
-    pub fn new(stamp: &Stamp, image: Image) -> Self {
+impl From<&Stamp> for StampRecord {
+    fn from(stamp: &Stamp) -> Self {
         let (sin, cos) = f64::from(stamp.phase).sin_cos();
         Self {
-            centre: stamp.centre,
-            shift: image.shift,
-            radius: stamp.radius,
             height: stamp.height,
             level: stamp.level,
             alpha: stamp.alpha,
-            phase: [cos as f32, sin as f32],
             irregularity: stamp.irregularity,
+            phase: [cos as f32, sin as f32],
             soot: stamp.soot,
             bare: stamp.bare,
             profile: stamp.profile as u32,
             blend: stamp.blend as u32,
-            spare: 0,
         }
     }
 }
@@ -195,7 +187,10 @@ pub struct StampParams {
 
 /// Presses stamps.
 pub struct Stamps {
-    kernel: Kernel,
+    /// For stamps that are round and leave the material alone, all of them.
+    plain: Kernel,
+    /// For any.
+    full: Kernel,
     layout: BindingLayout,
 }
 
@@ -212,20 +207,21 @@ pub struct StampSet {
 struct Buffers {
     params: Uniform<StampParams>,
     tiles: List<Tile>,
-    members: List<u32>,
+    members: List<Member>,
     records: List<StampRecord>,
 }
 
 impl StampSet {
     /// Texels of the tiles that the last stamps touched, a tile at the border counted whole.
     pub fn touched_texels(&self) -> u64 {
-        self.bins.tiles.len() as u64 * u64::from(self.ground.tile_texels).pow(2)
+        self.bins.tiles.len() as u64 * self.ground.tile.map(u64::from).iter().product::<u64>()
     }
 }
 
 impl Stamps {
-    /// Side of a tile, texels: one workgroup.
-    pub const TILE: u32 = 16;
+    /// Width and height of a tile, texels: one workgroup, of which each invocation takes four texels of a column. Smaller tiles
+    /// gather fewer stamps that miss most of them.
+    pub const TILE: [u32; 2] = [16, 8];
 
     /// Builds the pipeline.
     ///
@@ -247,15 +243,19 @@ impl Stamps {
                 Binding::Read,
             ],
         );
-        let kernel = Kernel::new(
-            gpu,
-            "stamp",
-            &["field/stamp"],
-            "stamp_press",
-            &[("STAMP_TILE", f64::from(Self::TILE)), ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM), ("STAMP_LIP", CRATER_LIP)],
-            &[None, Some(&layout)],
-        )?;
-        Ok(Self { kernel, layout })
+        // Two kernels, since a branch that no texel takes still costs a software adapter all that it skips.
+        let kernel = |plain: bool| {
+            let constants = [
+                ("STAMP_TILE_X", f64::from(Self::TILE[0])),
+                ("STAMP_TILE_Y", f64::from(Self::TILE[1])),
+                ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM),
+                ("STAMP_LIP", CRATER_LIP),
+                ("STAMP_PLAIN", f64::from(u8::from(plain))),
+            ];
+            Kernel::new(gpu, "stamp", &["field/stamp"], "stamp_press", &constants, &[None, Some(&layout)])
+        };
+        let (plain, full) = (kernel(true)?, kernel(false)?);
+        Ok(Self { plain, full, layout })
     }
 
     /// Binds a field.
@@ -269,7 +269,7 @@ impl Stamps {
         };
         let layers = [field.relief.view.clone(), field.material.view.clone()];
         let group = self.group(gpu, &layers, &buffers);
-        let ground = Ground { size: field.size, wrap: field.addressing == Addressing::Wrap, tile_texels: Self::TILE };
+        let ground = Ground { size: field.size, wrap: field.addressing == Addressing::Wrap, tile: Self::TILE };
         StampSet { ground, bins: Bins::default(), records: Vec::new(), buffers, layers, group }
     }
 
@@ -295,17 +295,17 @@ impl Stamps {
     pub fn record(&self, recorder: &mut Recorder<'_>, set: &mut StampSet, stamps: &[Stamp]) -> Result<Dirty, BinError> {
         let gpu = recorder.gpu;
         set.bins.clear();
-        // The longest list is the records', where each tile has one.
-        let limit = List::<StampRecord>::limit(gpu);
+        let limit = List::<Member>::limit(gpu).min(List::<Tile>::limit(gpu));
         let batch = set.bins.add(set.ground, stamps.iter().map(Stamp::disc), limit)?;
         if batch.tile_count == 0 {
             return Ok(Dirty::Nothing);
         }
         set.records.clear();
-        set.records.extend(set.bins.images.iter().map(|image| StampRecord::new(&stamps[image.disc as usize], *image)));
+        set.records.extend(stamps.iter().map(StampRecord::from));
         self.upload(gpu, set, batch.tile_count);
+        let kernel = if stamps.iter().all(Stamp::is_plain) { &self.plain } else { &self.full };
         recorder.compute("stamp", |pass| {
-            pass.set_pipeline(&self.kernel.pipeline);
+            pass.set_pipeline(&kernel.pipeline);
             pass.set_bind_group(1, &set.group, &[]);
             let [x, y] = tile_workgroups(batch.tile_count);
             pass.dispatch_workgroups(x, y, 1);

@@ -6,7 +6,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::Field;
-use super::bins::{BinError, Bins, Disc, Ground, Image, Tile, tile_workgroups};
+use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, UniformSlots};
 use crate::scene::{self, Boundary, Obstacle};
@@ -276,36 +276,14 @@ impl Impulse {
     }
 }
 
-/// An impulse as the shader reads it, once for each image of the field that it covers.
+/// What the shader needs of an impulse besides its disc.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct WaveImpulse {
-    /// [`Impulse::centre`].
-    pub centre: [f32; 2],
-    /// [`Image::shift`].
-    pub shift: [i32; 2],
-    /// One over [`Impulse::radius`].
-    pub inverse_radius: f32,
     /// [`Impulse::strength`].
     pub strength: f32,
     /// [`Impulse::ring`].
     pub ring: f32,
-    /// Fills the last 16 bytes.
-    pub spare: u32,
-}
-
-impl WaveImpulse {
-    /// What the shader needs of an impulse in one image of the field.
-    pub fn new(impulse: &Impulse, ring: f64, image: Image) -> Self {
-        Self {
-            centre: impulse.centre,
-            shift: image.shift,
-            inverse_radius: 1.0 / impulse.radius,
-            strength: impulse.strength,
-            ring: ring as f32,
-            spare: 0,
-        }
-    }
 }
 
 /// Uniforms of a step.
@@ -383,7 +361,7 @@ pub struct WaveSet {
 struct Buffers {
     params: Uniform<WaveParams>,
     tiles: List<Tile>,
-    members: List<u32>,
+    members: List<Member>,
     impulses: List<WaveImpulse>,
     batches: UniformSlots<WaveBatch>,
 }
@@ -463,7 +441,7 @@ impl Waves {
         let states = [field.wave[0].view.clone(), field.wave[1].view.clone()];
         let (step_groups, splash_groups) = self.groups(gpu, &mask_view, &states, &buffers);
         let mut set = WaveSet {
-            ground: Ground { size: field.size, wrap: false, tile_texels: Self::TILE },
+            ground: Ground { size: field.size, wrap: false, tile: [Self::TILE; 2] },
             mask: Mask::new(field.size, wave.boundary, |_, _| false),
             bins: Bins::default(),
             impulses: Vec::new(),
@@ -579,21 +557,20 @@ impl Waves {
 impl WaveSet {
     /// Lists a frame's impulses, and answers with the step before which each batch of them falls.
     fn list(&mut self, gpu: &Gpu, splashes: &[(u32, Impulse)]) -> Result<Vec<u32>, BinError> {
-        let limit = List::<WaveImpulse>::limit(gpu);
+        let limit = List::<Member>::limit(gpu).min(List::<Tile>::limit(gpu));
         self.bins.clear();
         self.impulses.clear();
         self.batches.clear();
         let mut falls = Vec::new();
         for of_step in splashes.chunk_by(|(a, _), (b, _)| a == b) {
             // An impulse with no free texel to push water to does nothing.
-            let effective: Vec<_> =
-                of_step.iter().filter_map(|(_, impulse)| Some((impulse, impulse.ring(&self.mask)?))).collect();
-            let listed = self.bins.images.len();
-            let batch = self.bins.add(self.ground, effective.iter().map(|(impulse, _)| impulse.disc()), limit)?;
-            self.impulses.extend(self.bins.images[listed..].iter().map(|image| {
-                let (impulse, ring) = effective[image.disc as usize];
-                WaveImpulse::new(impulse, ring, *image)
-            }));
+            let effective = of_step.iter().filter_map(|(_, impulse)| Some((impulse, impulse.ring(&self.mask)?)));
+            let impulses = &mut self.impulses;
+            let discs = effective.map(|(impulse, ring)| {
+                impulses.push(WaveImpulse { strength: impulse.strength, ring: ring as f32 });
+                impulse.disc()
+            });
+            let batch = self.bins.add(self.ground, discs, limit)?;
             if batch.tile_count > 0 {
                 self.batches.push(WaveBatch { first: batch.first_tile, count: batch.tile_count });
                 falls.push(of_step[0].0);

@@ -82,7 +82,7 @@ impl Preference {
     }
 
     /// The backends to look at, in turn: OpenGL only if nothing else answers, for there most limits are lower.
-    fn backend_sets(&self) -> Vec<wgpu::Backends> {
+    pub fn backend_sets(&self) -> Vec<wgpu::Backends> {
         match self.backend {
             Some(backends) => vec![backends],
             None => vec![wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12, wgpu::Backends::GL],

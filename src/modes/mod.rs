@@ -2,14 +2,23 @@
 
 pub mod adapters;
 pub mod capture;
+mod gui;
+pub mod hand;
+pub mod input;
+pub mod live;
+pub mod panel;
+pub mod pick;
 mod progress;
+pub mod readings;
+mod screen;
+pub mod session;
 pub mod stress;
 
 use crate::cli::CommonOptions;
 use crate::field::base;
 use crate::frame::{FrameError, Start};
 use crate::gpu::readback::ReadbackError;
-use crate::gpu::{AdapterError, Gpu, Preference, Readback, ShaderError};
+use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
 use crate::io::atomic::WriteError;
 use crate::io::scene_file::{self, LoadedScene, SceneFileError};
 
@@ -48,12 +57,7 @@ pub enum ModeError {
 ///
 /// There is none, none matches, or none is able.
 pub fn open_device(common: &CommonOptions) -> Result<Gpu, AdapterError> {
-    pollster::block_on(Gpu::new(&preference(common)))
-}
-
-/// Which adapter the command line and the environment ask for.
-pub fn preference(common: &CommonOptions) -> Preference {
-    common.machine.preference()
+    pollster::block_on(Gpu::new(&common.machine.preference()))
 }
 
 /// Loads the scene that the command line asks for.

@@ -110,7 +110,11 @@ pub fn exact_forms(camera: &Camera, image_size: [u32; 2], target: &Target) -> Ex
     let view_from_pixel = DMat3::from_cols(
         DVec3::new(2.0 * half_height / height, 0.0, 0.0),
         DVec3::new(0.0, -2.0 * half_height / height, 0.0),
-        DVec3::new(-half_height * width / height, half_height, -1.0),
+        DVec3::new(
+            -half_height * width / height - 2.0 * half_height * camera.lens_shift.x,
+            half_height + 2.0 * half_height * camera.lens_shift.y,
+            -1.0,
+        ),
     );
     let world_from_pixel = (DMat3::from_mat4(camera.world_from_view) * view_from_pixel).transpose();
     let (x, y, z) = (world_from_pixel.x_axis, world_from_pixel.y_axis, world_from_pixel.z_axis);

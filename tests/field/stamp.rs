@@ -77,8 +77,8 @@ fn compare(wall: &Wall, expected: &Layers, stamps: &[Stamp]) -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
     for index in (0..relief.len()).filter(|index| !unsure(*index)) {
         worst.0 = worst.0.max((f64::from(relief[index]) - expected.relief[index]).abs());
-        for channel in 0..2 {
-            worst.1 = worst.1.max((material[index][channel] - expected.material[index][channel]).abs());
+        for (actual, expected) in material[index].iter().zip(&expected.material[index]) {
+            worst.1 = worst.1.max((actual - expected).abs());
         }
     }
     worst
@@ -326,22 +326,35 @@ fn four_thousand_stamps_cost_at_most_two_wave_steps() {
     let wave = scene::Wave { boundary: Boundary::Periodic, ..scene::Wave::default() };
     let field = Field::new(wall.gpu, size, Addressing::Wrap, true);
     let mut pool = waves.bind(wall.gpu, &field, &wave, [1.0, 1.0]);
-    // In turn, so that both see the same machine; the least of each, since other processes only add.
-    let (mut stamp, mut steps) = (f64::INFINITY, f64::INFINITY);
-    for frame in 0..30 {
-        let discs: Vec<_> = stress_discs(0, frame, 4096, 8.0, size).collect();
-        let (_, passes) = run_timed(wall.gpu, |recorder| {
-            waves.record(recorder, &mut pool, 2, &[]).expect("no impulses");
-            wall.stamps.record(recorder, &mut wall.set, &discs).expect("they fit");
-        });
-        let time = |name: &str| {
-            let pass = passes.iter().find(|pass| pass.name == name).expect("it was recorded");
-            pass.milliseconds.expect("the adapter has timestamps")
-        };
-        (steps, stamp) = (steps.min(time("wave")), stamp.min(time("stamp")));
-    }
-    println!("4,096 stamps of radius 8: {stamp:.2} ms; two wave steps at 1024²: {steps:.2} ms");
-    assert!(stamp <= STAMP_BUDGET_STEPS * steps / 2.0, "{stamp:.2} ms of {steps:.2} ms");
+    // Stamps beside steps in one submission, so that both see the same machine, and the median of their ratios.
+    let mut median_ratio = |name: &str, stamps_of: &dyn Fn(u64) -> Vec<Stamp>| {
+        let mut ratios: Vec<_> = (0..31)
+            .map(|frame| {
+                let discs = stamps_of(frame);
+                let (_, passes) = run_timed(wall.gpu, |recorder| {
+                    waves.record(recorder, &mut pool, 2, &[]).expect("no impulses");
+                    wall.stamps.record(recorder, &mut wall.set, &discs).expect("they fit");
+                });
+                let time = |name: &str| {
+                    let pass = passes.iter().find(|pass| pass.name == name).expect("it was recorded");
+                    pass.milliseconds.expect("the adapter has timestamps")
+                };
+                time("stamp") / time("wave")
+            })
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        println!("4,096 {name} of radius 8 at 1024²: {:.2} wave steps", 2.0 * ratios[15]);
+        2.0 * ratios[15]
+    };
+    let discs = |frame| stress_discs(0, frame, 4096, 8.0, size).collect::<Vec<_>>();
+    let craters = |frame| {
+        let crater = |disc| Stamp { profile: Profile::Crater, irregularity: 0.5, soot: 0.5, bare: 1.0, ..disc };
+        stress_discs(0, frame, 4096, 8.0, size).map(crater).collect::<Vec<_>>()
+    };
+    let steps = median_ratio("discs", &discs);
+    assert!(steps <= STAMP_BUDGET_STEPS, "{steps:.2} wave steps");
+    // What a stamp can do at most; its margin is too small to be held to it on a busy machine.
+    median_ratio("irregular craters with soot", &craters);
 }
 
 #[test]

@@ -1,0 +1,79 @@
+//! The hand: what the brush does where it meets the surface.
+
+use super::panel::{Brush, BrushKind};
+use crate::field::wave::Impulse;
+use crate::scene::{Addressing, Scene, Shots};
+use crate::stroke::{self, Lattice, Random, Stream, Stroke};
+
+/// The stroke of a brush at a lattice position of the surface, the `number`th of the hand; none beyond the border of a field that
+/// does not repeat, or upon water where there is none.
+pub fn stroke(brush: &Brush, scene: &Scene, at: [f32; 2], number: u64) -> Option<Stroke> {
+    let lattice = Lattice::of_scene(scene);
+    let uv = [0, 1].map(|axis| (f64::from(at[axis]) + 0.5) / f64::from(lattice.size[axis]));
+    let uv = match scene.field.addressing {
+        Addressing::Wrap => uv.map(|along| along.rem_euclid(1.0)),
+        Addressing::Clamp if uv.iter().all(|along| (0.0..=1.0).contains(along)) => uv,
+        Addressing::Clamp => return None,
+    };
+    match brush.kind {
+        BrushKind::Drop => scene.wave.as_ref().map(|_| {
+            let radius = (f64::from(brush.radius_metres) / lattice.texel_metres) as f32;
+            // As deep as the heaviest drop of the rain.
+            Stroke::Splash(Impulse::new(lattice.at(uv), radius, -1.0))
+        }),
+        BrushKind::Shot => {
+            let own = scene.shots.clone().unwrap_or_default();
+            // As deep for its size as the scene's own.
+            let depth_metres = own.depth_metres * brush.radius_metres / own.radius_metres[1];
+            let shots = Shots { radius_metres: [brush.radius_metres; 2], depth_metres, ..own };
+            let mut random = Random::new(scene.seed, Stream::Hand, number);
+            Some(Stroke::Press(stroke::shot(&shots, &lattice, uv, &mut random)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Wave;
+
+    fn water() -> Scene {
+        Scene { wave: Some(Wave::default()), ..Scene::default() }
+    }
+
+    #[test]
+    fn a_drop_falls_where_it_was_aimed_with_the_radius_of_the_brush() {
+        let scene = water();
+        let brush = Brush { radius_metres: 0.05, ..Brush::of(&scene) };
+        let Some(Stroke::Splash(drop)) = stroke(&brush, &scene, [100.25, 7.0], 0) else { panic!("water takes drops") };
+        assert!((drop.centre()[0] - 100.25).abs() < 1e-3 && (drop.centre()[1] - 7.0).abs() < 1e-3);
+        assert!((drop.radius() - 0.05 * 512.0).abs() < 1e-3);
+        assert!(drop.strength() < 0.0);
+    }
+
+    #[test]
+    fn shots_differ_from_one_another_but_not_from_run_to_run() {
+        let scene = Scene::default();
+        let brush = Brush::of(&scene);
+        let shot = |number| stroke(&brush, &scene, [50.0, 60.0], number);
+        assert_eq!(shot(3), shot(3));
+        assert_ne!(shot(3), shot(4));
+        assert!(matches!(shot(3), Some(Stroke::Press(_))));
+    }
+
+    #[test]
+    fn beyond_the_border_only_a_field_that_repeats_is_hit() {
+        let mut scene = Scene::default();
+        let brush = Brush::of(&scene);
+        assert_eq!(stroke(&brush, &scene, [-3.0, 5.0], 0), None);
+        scene.field.addressing = Addressing::Wrap;
+        let Some(Stroke::Press(shot)) = stroke(&brush, &scene, [-3.0, 5.0], 0) else { panic!("it repeats") };
+        assert!((shot.centre[0] - 509.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn without_water_no_drop_falls() {
+        let brush = Brush { kind: BrushKind::Drop, ..Brush::of(&water()) };
+        assert_eq!(stroke(&brush, &Scene::default(), [50.0, 60.0], 0), None);
+    }
+}

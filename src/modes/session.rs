@@ -1,0 +1,401 @@
+//! What a window shows, apart from the window: the scene and its frame, the clock, the camera, the hand.
+
+use std::path::PathBuf;
+
+use glam::DVec2;
+
+use super::capture::Picture;
+use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
+use super::panel::Panel;
+use super::pick::Picker;
+use super::readings::Readings;
+use super::{ModeError, hand};
+use crate::camera::{Camera, Rig};
+use crate::clock::{Clock, Pace, Tick};
+use crate::field::{self, base};
+use crate::frame::{Frame, FrameError, FrameInput, Start};
+use crate::gpu::{Gpu, Readback};
+use crate::io::png_file;
+use crate::stroke::{Stroke, Strokes};
+use crate::surface::Technique;
+
+/// Time from frame to frame where it is fixed, and of a single step, seconds.
+pub const DT_SECONDS: f64 = 1.0 / 60.0;
+
+/// The longest that one frame may span in real time, seconds: after a pause of the whole program the scene goes on where it was.
+const LONGEST_FRAME_SECONDS: f64 = 0.25;
+
+/// How a session's time passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pacing {
+    /// With the clock on the wall.
+    Realtime,
+    /// By [`DT_SECONDS`] a frame, and answers of the GPU are waited for: a script sees the same run every time.
+    Fixed,
+}
+
+/// Makes the start of a scene, by its name.
+pub type Load = Box<dyn Fn(&str) -> Result<Start, ModeError>>;
+
+/// See the module's documentation.
+pub struct Session {
+    /// The device.
+    pub gpu: Gpu,
+    /// The frame.
+    pub frame: Frame,
+    /// The panel.
+    pub panel: Panel,
+    /// The mouse.
+    pub pointer: Pointer,
+    /// The keys of flight.
+    pub flight: FlightKeys,
+    pub(super) rig: Rig,
+    start: Start,
+    load: Option<Load>,
+    pacing: Pacing,
+    format: wgpu::TextureFormat,
+    pub(super) readings: Readings,
+    clock: Clock,
+    repeat: Repeat,
+    picker: Picker,
+    /// The counts of clipped texels, on their way.
+    clipped: Option<Readback>,
+    /// Where the brush was pressed since the last frame.
+    taps: Vec<DVec2>,
+    /// How many random strokes the hand has made.
+    hand_strokes: u64,
+    single_step: bool,
+    /// Where the last frame was seen from: what a click upon it means.
+    shown: Camera,
+    /// What the last frame spanned.
+    tick: Tick,
+}
+
+impl Session {
+    /// Builds the first frame, for pictures of `image_size` in `format`.
+    ///
+    /// # Errors
+    ///
+    /// A size is beyond the adapter's limits, or a shader does not compile.
+    pub fn new(
+        gpu: Gpu,
+        start: Start,
+        pacing: Pacing,
+        image_size: [u32; 2],
+        format: wgpu::TextureFormat,
+    ) -> Result<Self, FrameError> {
+        let frame = Frame::new(&gpu, &start, image_size, format)?;
+        let mut panel = Panel::new(start.scene.clone(), Vec::new());
+        // A script knows where the surface is in the picture, not where the panel is.
+        panel.shown = pacing == Pacing::Realtime;
+        let rig = Rig::new(start.scene.camera.clone());
+        let readings = Readings::new(gpu.describe(), frame.timer.is_timed());
+        let shown = rig.camera(0.0);
+        Ok(Self {
+            clock: Clock::new(frame.step_seconds()),
+            gpu,
+            frame,
+            panel,
+            pointer: Pointer::default(),
+            flight: FlightKeys::default(),
+            rig,
+            start,
+            load: None,
+            pacing,
+            format,
+            readings,
+            repeat: Repeat::default(),
+            picker: Picker::default(),
+            clipped: None,
+            taps: Vec::new(),
+            hand_strokes: 0,
+            single_step: false,
+            shown,
+            tick: Tick::default(),
+        })
+    }
+
+    /// Offers other scenes, and knows how to make their starts.
+    pub fn with_scenes(mut self, scenes: Vec<(String, String)>, load: Load) -> Self {
+        self.panel.scenes = scenes;
+        self.load = Some(load);
+        self
+    }
+
+    /// What the window is called.
+    pub fn title(&self) -> String {
+        let scene = &self.panel.scene;
+        format!("{} · {} · Rilievo", scene.name, scene.trace.technique.label())
+    }
+
+    /// Camera and time of the last frame, for a picture of it that no panel covers.
+    pub fn last(&self) -> (Camera, Tick) {
+        (self.rig.centred(self.tick.time_seconds), self.tick)
+    }
+
+    /// Saves what the window shows, without the panel, as a PNG in the working directory, and says where.
+    pub fn save_picture(&mut self) {
+        let path = unused_file(&self.panel.scene.name);
+        let saved = self.picture().and_then(|pixels| Ok(png_file::write(&path, self.frame.image_size(), &pixels)?));
+        self.panel.say(match saved {
+            Ok(()) => format!("Saved {}", path.display()),
+            Err(error) => format!("No picture: {error}"),
+        });
+    }
+
+    fn picture(&self) -> Result<Vec<u8>, ModeError> {
+        let (camera, tick) = self.last();
+        let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, shows: self.panel.shows };
+        let picture = Picture::new(&self.gpu, self.frame.image_size());
+        picture.draw(&self.gpu, &self.frame, &input)?;
+        picture.read(&self.gpu)
+    }
+
+    /// Does what a key or the panel asks for. What concerns the window alone is not for here.
+    pub fn act(&mut self, action: Action) {
+        match action {
+            Action::TogglePause => self.panel.paused = !self.panel.paused,
+            Action::Step => {
+                self.panel.paused = true;
+                self.single_step = true;
+            }
+            Action::Reset => self.restart(),
+            Action::NewSeed => self.reseed(),
+            Action::Scene(index) => self.choose(index),
+            Action::NextView => {
+                self.panel.shows = next(crate::surface::Shows::ALL, self.panel.shows);
+                self.panel.say(format!("View: {}", self.panel.shows.label()));
+            }
+            Action::NextTechnique => {
+                let technique = &mut self.panel.scene.trace.technique;
+                *technique = next(Technique::ALL, *technique);
+                let label = technique.label();
+                self.panel.say(format!("Technique: {label}"));
+            }
+            Action::TogglePanel => self.panel.shown = !self.panel.shown,
+            Action::ToggleKeys => self.panel.keys_shown = !self.panel.keys_shown,
+            Action::HideKeys => self.panel.keys_shown = false,
+            Action::ToggleFly => {
+                self.rig.toggle_fly(self.clock.time_seconds());
+                self.panel.say(if self.rig.flies() { "Fly: W A S D, Q E; wheel for speed" } else { "Orbit" });
+            }
+            Action::ResetCamera => self.rig.reset(),
+            Action::ToggleFullscreen | Action::Picture => {}
+        }
+        self.panel.flies = self.rig.flies();
+    }
+
+    /// Back to the start of the scene, with what the panel changed.
+    fn restart(&mut self) {
+        self.start.scene = self.panel.scene.clone();
+        self.frame.reset(&self.gpu, &self.start);
+        self.clock = Clock::new(self.frame.step_seconds());
+        self.picker.forget();
+        self.hand_strokes = 0;
+    }
+
+    fn reseed(&mut self) {
+        let seed = self.panel.scene.seed.wrapping_add(1);
+        self.panel.scene.seed = seed;
+        self.panel.original.seed = seed;
+        self.apply_scene();
+        // An image has no seed.
+        if let Some(heights) = base::heights(&self.panel.scene) {
+            self.start = Start::new(&self.panel.scene, heights);
+        }
+        self.restart();
+        self.panel.say(format!("Seed {seed}"));
+    }
+
+    fn choose(&mut self, index: usize) {
+        let (Some((name, _)), Some(load)) = (self.panel.scenes.get(index), &self.load) else { return };
+        let made = load(name).and_then(|start| {
+            let frame = Frame::new(&self.gpu, &start, self.frame.image_size(), self.format)?;
+            Ok((start, frame))
+        });
+        match made {
+            Ok((start, frame)) => {
+                self.frame = frame;
+                self.panel.choose(start.scene.clone());
+                self.rig = Rig::new(start.scene.camera.clone());
+                self.clock = Clock::new(self.frame.step_seconds());
+                self.start = start;
+                self.picker.forget();
+                self.readings.forget_passes();
+                self.clipped = None;
+                self.hand_strokes = 0;
+                let description = self.panel.scene.description.clone();
+                self.panel.say(description);
+            }
+            Err(error) => self.panel.say(error.to_string()),
+        }
+    }
+
+    /// A drag of the mouse, pixels right and down.
+    pub fn drag(&mut self, grip: Grip, pixels: DVec2) {
+        let drag = pixels / f64::from(self.frame.image_size()[1]);
+        match grip {
+            Grip::Turn => self.rig.turn(drag, self.clock.time_seconds()),
+            Grip::Pan => self.rig.pan(drag, self.clock.time_seconds()),
+            Grip::Brush | Grip::Panel => {}
+        }
+    }
+
+    /// A press of the brush at a pixel.
+    pub fn tap(&mut self, pixel: DVec2) {
+        self.taps.push(pixel);
+    }
+
+    /// A turn of the wheel.
+    pub fn wheel(&mut self, notches: f64, sizes_brush: bool) {
+        if sizes_brush {
+            self.panel.brush.grow(notches as f32);
+            self.panel.say(format!("Brush: {:.0} mm", self.panel.brush.radius_metres * 1e3));
+        } else {
+            self.rig.zoom(notches, self.clock.time_seconds());
+        }
+    }
+
+    /// Whether the next frame would show anything new without an event.
+    pub fn moves(&self) -> bool {
+        let scene = &self.panel.scene;
+        let turns = scene.light.turn_degrees_per_second != 0.0
+            || (self.rig.follows_scene() && scene.camera.orbit_degrees_per_second != 0.0);
+        let lives = !self.panel.paused && (scene.wave.is_some() || scene.shots.is_some() || turns);
+        let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
+        lives || hand || self.picker.waits() || self.single_step || !self.taps.is_empty() || self.pacing == Pacing::Fixed
+    }
+
+    /// Takes over what the panel changed in the scene.
+    pub fn apply_scene(&mut self) {
+        if self.panel.scene == *self.frame.scene() {
+            return;
+        }
+        match self.frame.set_scene(&self.gpu, &self.panel.scene) {
+            Ok(()) => {
+                self.clock.set_step(self.frame.step_seconds());
+                self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
+            }
+            Err(error) => {
+                self.panel.say(error.to_string());
+                self.panel.scene = self.frame.scene().clone();
+            }
+        }
+    }
+
+    /// Records the next frame into `target`, `elapsed_seconds` after the one before by the wall clock. `covered` is how much of the
+    /// left of the picture the panel hides, pixels: an orbit keeps its target in the middle of the rest.
+    ///
+    /// # Errors
+    ///
+    /// The frame has more strokes than the adapter can take.
+    pub fn record(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        target: Option<&wgpu::TextureView>,
+        elapsed_seconds: f64,
+        covered: f64,
+    ) -> Result<(), FrameError> {
+        self.panel.pass_time(elapsed_seconds);
+        let elapsed_seconds = elapsed_seconds.min(LONGEST_FRAME_SECONDS);
+        let hand_seconds = if self.pacing == Pacing::Fixed { DT_SECONDS } else { elapsed_seconds };
+        self.rig.fly(self.flight.movement(), hand_seconds);
+        let hand = self.hand(hand_seconds);
+        self.tick = self.tick(elapsed_seconds);
+        let mut strokes = Strokes::of_scene(&self.panel.scene, self.panel.scene.seed, &self.tick);
+        hand.into_iter().for_each(|stroke| strokes.push(stroke));
+        self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
+        self.shown = self.rig.camera(self.tick.time_seconds);
+        let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, shows: self.panel.shows };
+        self.frame.record(&self.gpu, encoder, &input, target)
+    }
+
+    /// Submits what [`Session::record`] and others recorded, and notes what the frame cost.
+    pub fn finish(&mut self, encoder: wgpu::CommandEncoder, elapsed_seconds: f64) {
+        self.frame.finish(&self.gpu, encoder);
+        while let Some(times) = self.frame.timer.finished_frame() {
+            self.readings.note_passes(&times);
+        }
+        self.note_clipped();
+        self.readings.note_frame(elapsed_seconds);
+        self.readings.time_seconds = self.tick.time_seconds;
+        self.readings.steps = self.tick.steps;
+        self.readings.image_size = self.frame.image_size();
+        self.readings.field_size = self.frame.field.size;
+        self.readings.field_bytes_per_texel = field::bytes_per_texel();
+        self.readings.gpu_memory_bytes = self.frame.memory_bytes();
+    }
+
+    /// Notes the counts of clipped texels that arrived, and asks for the next.
+    fn note_clipped(&mut self) {
+        match self.clipped.as_ref().map(Readback::take) {
+            // On its way.
+            Some(None) => return,
+            Some(Some(Ok(bytes))) => {
+                let counts: Vec<u32> = bytemuck::pod_collect_to_vec(&bytes);
+                self.readings.clipped_texels = Some(counts.into_iter().map(u64::from).sum());
+            }
+            Some(Some(Err(error))) => log::warn!("{error}"),
+            None => {}
+        }
+        let mut encoder = self.gpu.encoder("clipped");
+        let counts = &self.frame.field.clipped;
+        let readback = Readback::record_buffer(&self.gpu, &mut encoder, counts, counts.size());
+        self.gpu.queue.submit([encoder.finish()]);
+        readback.start();
+        self.clipped = Some(readback);
+    }
+
+    fn tick(&mut self, elapsed_seconds: f64) -> Tick {
+        if std::mem::take(&mut self.single_step) {
+            return self.clock.single_step(DT_SECONDS);
+        }
+        self.clock.advance(match (self.panel.paused, self.pacing) {
+            (true, _) => Pace::Paused,
+            (false, Pacing::Realtime) => Pace::Realtime { elapsed_seconds },
+            (false, Pacing::Fixed) => Pace::Fixed { dt_seconds: DT_SECONDS },
+        })
+    }
+
+    /// What the hand did since the last frame. It works while paused too: then its strokes are all that changes.
+    fn hand(&mut self, seconds: f64) -> Vec<Stroke> {
+        let held = self.pointer.grip() == Some(Grip::Brush);
+        let repeats = self.repeat.acts(held, seconds, f64::from(self.panel.brush.per_second));
+        let mut pixels = std::mem::take(&mut self.taps);
+        // A press that is still held is among the taps already.
+        if pixels.is_empty() && repeats {
+            pixels.extend(self.pointer.position());
+        }
+        let asked = self.picker.ask(&self.gpu, &self.frame, &self.shown, self.tick.time_seconds, &pixels);
+        if let Err(error) = asked {
+            log::error!("{error}");
+        }
+        let wait = self.pacing == Pacing::Fixed && self.picker.waits();
+        let poll = if wait { wgpu::PollType::wait_indefinitely() } else { wgpu::PollType::Poll };
+        if let Err(error) = self.gpu.device.poll(poll) {
+            log::warn!("the GPU does not answer: {error}");
+        }
+        let mut strokes = Vec::new();
+        for lattice in self.picker.answers() {
+            if let Some(stroke) = hand::stroke(&self.panel.brush, &self.panel.scene, lattice, self.hand_strokes) {
+                strokes.push(stroke);
+                self.hand_strokes += 1;
+            }
+        }
+        strokes
+    }
+}
+
+/// A file in the working directory that is not there yet, named after the scene.
+fn unused_file(scene: &str) -> PathBuf {
+    let plain = |character: char| if character.is_alphanumeric() || character == '-' { character } else { '_' };
+    let scene: String = scene.chars().map(plain).collect();
+    let named = |number: u32| PathBuf::from(format!("rilievo-{scene}-{number:03}.png"));
+    (1..).map(named).find(|path| !path.exists()).unwrap_or_else(|| named(0))
+}
+
+/// The element after this one, and the first after the last.
+fn next<T: Copy + PartialEq>(all: &[T], present: T) -> T {
+    let index = all.iter().position(|&other| other == present).unwrap_or(0);
+    all[(index + 1) % all.len()]
+}
