@@ -36,20 +36,28 @@ fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
     return shadow(Ray(lattice, view.light_in_field, height, 1.0));
 }
 
-// How open the sky is above a point, from the horizon in eight directions at two distances: what lies higher hides some of it.
+// How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of
+// it.
 fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
     let per_texel = view.depth_metres / view.texel_metres;
-    var hidden = 0.0;
-    for (var i = 0; i < 8; i++) {
-        let angle = 0.7853982 * f32(i) + 0.39;
-        let direction = vec2f(cos(angle), sin(angle));
-        let near = (sample_height(lattice + 4.0 * direction) - height) * per_texel / 4.0;
-        let far = (sample_height(lattice + 14.0 * direction) - height) * per_texel / 14.0;
-        let slope = max(max(near, far), 0.0);
-        // The sine of the horizon's elevation.
-        hidden += slope * inverseSqrt(1.0 + slope * slope);
-    }
-    return 1.0 - hidden / 8.0;
+    let near = 4.0;
+    let far = 13.0;
+    let diagonal = 0.70710678 * far;
+    let climbs = max(vec4f(0.0), per_texel / near * (vec4f(
+        sample_height(lattice + vec2f(near, 0.0)),
+        sample_height(lattice + vec2f(0.0, near)),
+        sample_height(lattice - vec2f(near, 0.0)),
+        sample_height(lattice - vec2f(0.0, near)),
+    ) - height));
+    let rises = max(vec4f(0.0), per_texel / far * (vec4f(
+        sample_height(lattice + vec2f(diagonal, diagonal)),
+        sample_height(lattice + vec2f(-diagonal, diagonal)),
+        sample_height(lattice - vec2f(diagonal, diagonal)),
+        sample_height(lattice + vec2f(diagonal, -diagonal)),
+    ) - height));
+    // The sines of the horizon's elevations.
+    let hidden = climbs * inverseSqrt(1.0 + climbs * climbs) + rises * inverseSqrt(1.0 + rises * rises);
+    return 1.0 - dot(hidden, vec4f(0.125));
 }
 
 fn shade(ray: Ray) -> Shaded {

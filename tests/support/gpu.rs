@@ -55,6 +55,12 @@ fn wait(gpu: &Gpu) {
 
 /// The bytes of a readback that was started.
 pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Vec<u8> {
-    wait(gpu);
-    readback.take().expect("the device was polled until it was done").expect("the device is there")
+    loop {
+        wait(gpu);
+        // Another test's thread may have polled in between and be about to run this readback's callback.
+        if let Some(bytes) = readback.take() {
+            return bytes.expect("the device is there");
+        }
+        std::thread::yield_now();
+    }
 }
