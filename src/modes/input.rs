@@ -218,9 +218,9 @@ impl Pointer {
         }
     }
 
-    /// The window lost it.
-    pub fn lost(&mut self) {
-        *self = Self::default();
+    /// The window lost the focus, and with it the release of a button: lets go. Where the mouse is does not change.
+    pub fn let_go(&mut self) {
+        self.grip = None;
     }
 }
 
@@ -323,8 +323,8 @@ mod tests {
         assert_eq!(pointer.press(MouseButton::Right, false, false), Some(Grip::Turn));
         pointer.left();
         assert_eq!(pointer.moved(DVec2::new(510.0, 0.0)), Some((Grip::Turn, DVec2::new(10.0, -5.0))));
-        pointer.lost();
-        assert_eq!((pointer.position(), pointer.grip()), (None, None));
+        pointer.let_go();
+        assert_eq!((pointer.position(), pointer.grip()), (Some(DVec2::new(510.0, 0.0)), None));
         assert_eq!(pointer.press(MouseButton::Right, false, true), Some(Grip::Pan));
     }
 

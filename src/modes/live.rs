@@ -90,6 +90,8 @@ struct Open {
     last_frame: Instant,
     /// When the next frame is due without an event; none: there is nothing new to show.
     due: Option<Instant>,
+    /// Whether the last frame was to be followed by another at once.
+    continuous: bool,
     visible: bool,
     title: String,
 }
@@ -166,6 +168,7 @@ impl Open {
             modifiers: ModifiersState::empty(),
             last_frame: now,
             due: Some(now),
+            continuous: false,
             visible: true,
             title: String::new(),
         })
@@ -193,7 +196,7 @@ impl Open {
             WindowEvent::Occluded(occluded) => self.visible = !occluded,
             WindowEvent::Focused(false) => {
                 self.session.flight.release();
-                self.session.pointer.lost();
+                self.session.pointer.let_go();
                 self.modifiers = ModifiersState::empty();
             }
             _ => {}
@@ -221,9 +224,6 @@ impl Open {
         if action == Action::ToggleFullscreen {
             let fullscreen = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
             self.window.set_fullscreen(fullscreen);
-        }
-        if action == Action::Picture {
-            self.session.save_picture();
         }
         self.session.act(action);
     }
@@ -296,7 +296,7 @@ impl Open {
         if let Some(target) = &target {
             self.gui.record(&session.gpu, &mut encoder, size, target);
         }
-        session.finish(encoder, elapsed_seconds);
+        session.finish(encoder, self.continuous.then_some(elapsed_seconds));
         if let Some(texture) = texture {
             self.window.pre_present_notify();
             session.gpu.queue.present(texture);
@@ -308,8 +308,8 @@ impl Open {
             self.window.set_title(&title);
             self.title = title;
         }
-        let moves = session.moves() && (self.visible || scripted);
-        self.due = if moves { Some(now) } else { now.checked_add(self.session.panel.stir(delay)) };
+        self.continuous = session.moves() && (self.visible || scripted);
+        self.due = if self.continuous { Some(now) } else { now.checked_add(session.panel.stir(delay)) };
         self.check().map(|()| true)
     }
 

@@ -10,6 +10,7 @@ use egui::{Align, Align2, Color32, Layout, RichText, Ui, vec2};
 
 pub use self::widgets::PANEL_WIDTH;
 use self::widgets::{Control, choice, colour, group, value};
+use super::hand::{Brush, BrushKind};
 use super::input::{Action, GESTURES, SHORTCUTS};
 use super::readings::{self, Readings};
 use crate::scene::{Boundary, Rain, Scene};
@@ -17,54 +18,6 @@ use crate::surface::{Albedo, Shadow, Shows, Technique};
 
 /// What the scroll bar takes of the panel, points.
 const SCROLL_BAR_WIDTH: f32 = 8.0;
-
-/// What the left mouse button does to the surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BrushKind {
-    /// A drop upon the water.
-    Drop,
-    /// A shot: a crater and its scorch.
-    Shot,
-}
-
-impl BrushKind {
-    const ALL: &'static [Self] = &[Self::Drop, Self::Shot];
-
-    fn label(self) -> &'static str {
-        match self {
-            Self::Drop => "Drop on water",
-            Self::Shot => "Shot into the wall",
-        }
-    }
-}
-
-/// The left mouse button.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Brush {
-    /// What it does.
-    pub kind: BrushKind,
-    /// How large, metres.
-    pub radius_metres: f32,
-    /// How often while it is held, 1/s.
-    pub per_second: f32,
-}
-
-impl Brush {
-    /// Smallest and largest radius, metres.
-    pub const RADIUS_METRES: [f32; 2] = [0.002, 0.3];
-
-    /// What suits a scene.
-    pub fn of(scene: &Scene) -> Self {
-        let kind = if scene.wave.is_some() { BrushKind::Drop } else { BrushKind::Shot };
-        Self { kind, radius_metres: 0.03 * scene.plane.width_metres, per_second: 12.0 }
-    }
-
-    /// Grows it by `notches` of the wheel, a tenth each.
-    pub fn grow(&mut self, notches: f32) {
-        let [least, most] = Self::RADIUS_METRES;
-        self.radius_metres = (self.radius_metres * 1.1_f32.powf(notches)).clamp(least, most);
-    }
-}
 
 /// What the panel shows and changes.
 #[derive(Clone, Debug, PartialEq)]

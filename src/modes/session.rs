@@ -134,7 +134,7 @@ impl Session {
     }
 
     /// Saves what the window shows, without the panel, as a PNG in the working directory, and says where.
-    pub fn save_picture(&mut self) {
+    fn save_picture(&mut self) {
         let path = unused_file(&self.panel.scene.name);
         let saved = self.picture().and_then(|pixels| Ok(png_file::write(&path, self.frame.image_size(), &pixels)?));
         self.panel.say(match saved {
@@ -180,7 +180,9 @@ impl Session {
                 self.panel.say(if self.rig.flies() { "Fly: W A S D, Q E; wheel for speed" } else { "Orbit" });
             }
             Action::ResetCamera => self.rig.reset(),
-            Action::ToggleFullscreen | Action::Picture => {}
+            Action::Picture => self.save_picture(),
+            // The window's own.
+            Action::ToggleFullscreen => {}
         }
         self.panel.flies = self.rig.flies();
     }
@@ -310,14 +312,17 @@ impl Session {
         self.frame.record(&self.gpu, encoder, &input, target)
     }
 
-    /// Submits what [`Session::record`] and others recorded, and notes what the frame cost.
-    pub fn finish(&mut self, encoder: wgpu::CommandEncoder, elapsed_seconds: f64) {
+    /// Submits what [`Session::record`] and others recorded, and notes what the frame cost: by the wall clock `frame_seconds`, where
+    /// it followed the one before at once.
+    pub fn finish(&mut self, encoder: wgpu::CommandEncoder, frame_seconds: Option<f64>) {
         self.frame.finish(&self.gpu, encoder);
         while let Some(times) = self.frame.timer.finished_frame() {
             self.readings.note_passes(&times);
         }
         self.note_clipped();
-        self.readings.note_frame(elapsed_seconds);
+        if let Some(seconds) = frame_seconds {
+            self.readings.note_frame(seconds);
+        }
         self.readings.time_seconds = self.tick.time_seconds;
         self.readings.steps = self.tick.steps;
         self.readings.image_size = self.frame.image_size();

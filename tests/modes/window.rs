@@ -27,10 +27,12 @@ fn colours(picture: &RgbImage, columns: std::ops::Range<u32>) -> usize {
     pixels.collect::<std::collections::HashSet<_>>().len()
 }
 
-/// How many pixels of a part differ visibly.
+/// How many pixels of a part differ visibly, above the line where messages come and go.
 fn differing(a: &RgbImage, b: &RgbImage, columns: std::ops::Range<u32>) -> usize {
     assert_eq!(a.dimensions(), b.dimensions());
-    let pairs = a.enumerate_pixels().filter(|(x, ..)| columns.contains(x)).map(|(x, y, pixel)| (pixel, b.get_pixel(x, y)));
+    let messages = a.height() - 60;
+    let part = a.enumerate_pixels().filter(|(x, y, _)| columns.contains(x) && *y < messages);
+    let pairs = part.map(|(x, y, pixel)| (pixel, b.get_pixel(x, y)));
     pairs.filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 8)).count()
 }
 
