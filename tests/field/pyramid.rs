@@ -39,7 +39,7 @@ fn record_levels(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, field: &Field) -
 
 fn levels(gpu: &Gpu, size: [u32; 2], readbacks: &[Readback]) -> Vec<Level> {
     readbacks.iter().for_each(Readback::start);
-    let level = |(level, readback)| Level {
+    let level = |(level, readback): (u32, _)| Level {
         size: size.map(|size| (size >> level).max(1)),
         bounds: bytemuck::pod_collect_to_vec(&wait_for(gpu, readback)),
     };
