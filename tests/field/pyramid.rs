@@ -39,7 +39,7 @@ fn record_levels(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, field: &Field) -
 
 fn levels(gpu: &Gpu, size: [u32; 2], readbacks: &[Readback]) -> Vec<Level> {
     readbacks.iter().for_each(Readback::start);
-    let level = |(level, readback): (u32, &Readback)| Level {
+    let level = |(level, readback): (u32, _)| Level {
         size: size.map(|size| (size >> level).max(1)),
         bounds: bytemuck::pod_collect_to_vec(&wait_for(gpu, readback)),
     };
@@ -75,11 +75,7 @@ fn rows_and_columns_equal_the_reference() {
 /// Small numbers, and those around a power of two or its three halves, where remainders chain.
 fn of_interest(n: u32) -> bool {
     let near = |pivot: u32| n.abs_diff(pivot) <= 2;
-    n <= 130
-        || near(n.next_power_of_two())
-        || near(n.next_power_of_two() / 2)
-        || near(n.next_power_of_two() / 4 * 3)
-        || n % 97 == 0
+    n <= 130 || near(n.next_power_of_two()) || near(n.next_power_of_two() / 2) || near(n.next_power_of_two() / 4 * 3) || n % 97 == 0
 }
 
 #[test]
