@@ -26,11 +26,11 @@ pub enum AdapterError {
     )]
     None,
     /// None of this name.
-    #[error("no graphics adapter matches {wanted}; there is: {found}")]
+    #[error("no graphics adapter matches {wanted}: {found}")]
     NoMatch {
         /// The name and backend that were asked for.
         wanted: String,
-        /// What was found.
+        /// What was found, and what to do about it.
         found: String,
     },
     /// Adapters, but none that is able.
@@ -255,7 +255,10 @@ pub fn nothing(preference: &Preference, incapable: &[String], others: &[String])
     if !incapable.is_empty() {
         AdapterError::Incapable(incapable.join("; "))
     } else if preference.name.is_some() || preference.backend.is_some() {
-        let found = if others.is_empty() { "nothing".to_owned() } else { others.join("; ") };
+        let found = match others {
+            [] => "there is none at all by that way, try without it or install a driver".to_owned(),
+            _ => format!("choose another, of {}", others.join("; ")),
+        };
         AdapterError::NoMatch { wanted: preference.describe(), found }
     } else {
         AdapterError::None
