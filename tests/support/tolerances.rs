@@ -79,8 +79,8 @@ pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
 pub const GOLDEN_LEVELS: u8 = 3;
 
 /// Share of a golden's values that may differ by more: where a ray grazes or a shadow begins, one rounding decides a whole pixel.
-/// A light that turns by one degree differs in over 0.05.
-pub const GOLDEN_OUTLIERS: f64 = 0.004;
+/// Some 24 pixels; turning the light of `bullet-wall` by one degree changes 0.0015.
+pub const GOLDEN_OUTLIERS: f64 = 0.001;
 
 /// Heights by which a picture's height may differ between the hardware's bilinear filter, with its 8 bits of fraction, and four
 /// loads: a 256th of the difference between two texels, and what that does to where a ray of `pom` meets the surface.
