@@ -346,7 +346,9 @@ fn sentence(error: &clap::Error) -> String {
         Some(ContextValue::Strings(texts)) => Some(texts.join("`, `")),
         _ => None,
     };
-    let argument = text(ContextKind::InvalidArg).unwrap_or_default();
+    // clap says `--size <WxH>`; the flag alone reads better.
+    let flag = |kind| text(kind).map(|argument| argument.split(" <").next().unwrap_or_default().to_owned());
+    let argument = flag(ContextKind::InvalidArg).unwrap_or_default();
     let value = text(ContextKind::InvalidValue).unwrap_or_default();
     match error.kind() {
         ErrorKind::UnknownArgument => match text(ContextKind::SuggestedArg) {
@@ -359,14 +361,17 @@ fn sentence(error: &clap::Error) -> String {
         }
         ErrorKind::ValueValidation => {
             let cause = std::error::Error::source(error).map(ToString::to_string).unwrap_or_default();
-            format!("`{argument}` cannot be `{value}`: {cause}")
+            if cause.starts_with("unknown ") { cause } else { format!("`{argument}` cannot be `{value}`: {cause}") }
         }
         ErrorKind::InvalidValue => format!("`{argument}` needs a value"),
         ErrorKind::MissingRequiredArgument => format!("`{argument}` is missing: `--help` says what it is for"),
-        ErrorKind::ArgumentConflict => match text(ContextKind::PriorArg) {
+        ErrorKind::ArgumentConflict => match flag(ContextKind::PriorArg) {
+            Some(prior) if argument.is_empty() => {
+                format!("`{prior}` stands before the mode: write the mode first, as in `rilievo capture --out DIR {prior}`")
+            }
             Some(prior) if prior == argument => format!("`{argument}` is given twice: give it once"),
             Some(prior) => format!("`{argument}` and `{prior}` exclude each other: give one of them"),
-            None => format!("`{argument}` stands before the mode: write the mode first, as in `rilievo capture --out DIR`"),
+            None => format!("`{argument}` contradicts another argument: `--help` says what it is for"),
         },
         // Every other kind is rare; its first line is a sentence already.
         _ => {

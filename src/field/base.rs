@@ -206,7 +206,7 @@ fn hash_u32(x: u32) -> u32 {
 }
 
 /// A number in [0, 1) for a lattice point and a salt; the twin of `hash_cell` in `shaders/common/noise.wgsl`.
-fn hash_cell(cell: [i32; 2], salt: u32) -> f64 {
+pub(crate) fn hash_cell(cell: [i32; 2], salt: u32) -> f64 {
     let mixed = hash_u32(cell[0] as u32 ^ hash_u32(cell[1] as u32 ^ hash_u32(salt)));
     f64::from(mixed >> 8) / 16_777_216.0
 }

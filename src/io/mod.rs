@@ -8,6 +8,7 @@ pub mod output_dir;
 pub mod png_file;
 mod resample;
 pub mod scene_file;
+pub mod shader_folder;
 
 use std::io::Write as _;
 

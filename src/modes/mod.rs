@@ -1,5 +1,6 @@
 //! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
 
+pub mod adapters;
 pub mod capture;
 mod gui;
 pub mod hand;

@@ -18,6 +18,7 @@ pub mod traversal;
 pub mod wave;
 
 pub use crate::scene::Addressing;
+pub use crate::surface::probe::Ray;
 
 /// A height field: the bilinear surface between texel centres at the integer lattice positions.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,34 +81,20 @@ pub fn address(texel: i64, size: u32, addressing: Addressing) -> usize {
     texel as usize
 }
 
-/// A ray in field space; its parameter t is the height that it has climbed or fallen. Twin of `shaders/surface/ray.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct Ray {
-    /// Lattice position at t = 0.
-    pub lattice: [f32; 2],
-    /// Lattice displacement while t grows by 1.
-    pub travel: [f32; 2],
-    /// Height at t = 0.
-    pub height: f32,
-    /// −1 for a view ray, which falls, +1 for a shadow ray, which climbs.
-    pub rise: f32,
-}
-
 impl Ray {
     /// A view ray, from the reference surface down.
     pub fn view(lattice: [f32; 2], travel: [f32; 2]) -> Self {
-        Self { lattice, travel, height: 1.0, rise: -1.0 }
+        Self { lattice, travel, height: 1.0, rise: -1.0, cell: [0, 0] }
     }
 
     /// A shadow ray, from a point of the surface up.
     pub fn shadow(lattice: [f32; 2], travel: [f32; 2], height: f32) -> Self {
-        Self { lattice, travel, height, rise: 1.0 }
+        Self { lattice, travel, height, rise: 1.0, cell: [0, 0] }
     }
 
     /// Lattice position at t.
     pub fn lattice_at(&self, t: f64) -> [f64; 2] {
-        [0, 1].map(|axis| f64::from(self.lattice[axis]) + t * f64::from(self.travel[axis]))
+        [0, 1].map(|axis| f64::from(self.cell[axis]) + f64::from(self.lattice[axis]) + t * f64::from(self.travel[axis]))
     }
 
     /// Height at t.

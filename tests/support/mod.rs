@@ -2,5 +2,7 @@
 
 #[cfg(target_os = "linux")]
 pub mod desktop;
+pub mod fields;
 pub mod gpu;
+pub mod rays;
 pub mod tolerances;

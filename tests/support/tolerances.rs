@@ -55,3 +55,21 @@ pub const LATTICE_FLOOR: f64 = 1e-4;
 pub fn lattice_bound(largest: f64) -> f64 {
     LATTICE_FLOOR.max(8.0 * 2f64.powi(-24) * largest)
 }
+
+/// Depth of a flat field, metres: a few roundings of heights near ½ times a depth of 0.1, and the filter's 8 bits cannot matter.
+pub const FLAT_FIELD: f64 = 1e-7;
+
+/// Height by which the exact traversal may pass through the surface, or stop above it, where a ray grazes it: the rounding of
+/// the bilinear in f32 and its slack, some 1e-6, and what the surface rises over the misplacement of the ray.
+pub fn hit_height(cells: f64, slope: f64) -> f64 {
+    1e-5 + cells * slope
+}
+
+/// Share of random rays that may graze so closely that rounding decides: thirty times what was measured, three in a million.
+pub const TANGENT_SHARE: f64 = 1e-4;
+
+/// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
+pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
+
+/// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
+pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;

@@ -1,0 +1,155 @@
+//! Lists of rays, and what the GPU and the CPU make of them.
+
+use rilievo::field::pyramid::Pyramid;
+use rilievo::field::{Field, Region};
+use rilievo::gpu::Gpu;
+use rilievo::reference::{Addressing, HeightField, Ray};
+use rilievo::surface::probe::Hit;
+use rilievo::surface::{Probe, Shadow, Technique, View};
+
+use super::fields::Random;
+use super::gpu::{run, wait_for};
+
+/// A field on the GPU, heights and bounds.
+pub fn upload(gpu: &Gpu, field: &HeightField) -> Field {
+    let textures = Field::new(gpu, field.size, field.addressing, false);
+    textures.height.write(gpu, &field.heights);
+    let pyramid = Pyramid::new(gpu).expect("the shader compiles");
+    let set = pyramid.bind(gpu, &textures);
+    run(gpu, |recorder| pyramid.record(recorder, &set, &[Region::all(field.size)]));
+    textures
+}
+
+/// A view of a field whose texels are of 1 mm and whose depth is 100 mm; nodes are practically without end.
+pub fn view(field: &HeightField) -> View {
+    View {
+        field_size: field.size,
+        wrap: u32::from(field.addressing == Addressing::Wrap),
+        step_cap: 1 << 22,
+        plane_size_metres: field.size.map(|texels| texels as f32 * 1e-3),
+        depth_metres: 0.1,
+        texel_metres: 1e-3,
+        pom_samples_min: 8.0,
+        pom_samples_max: 50.0,
+        shadow_samples: 16.0,
+        shadow_strength: 4.0,
+        ..View::default()
+    }
+}
+
+/// The hits of the rays, through the WGSL that pictures are made with.
+pub fn trace(gpu: &Gpu, technique: Technique, field: &Field, view: &View, rays: &[Ray]) -> Vec<Hit> {
+    let probe = Probe::new(gpu, technique, Shadow::None).expect("the shader compiles");
+    let readback = probe.trace(gpu, field, view, rays);
+    bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback))
+}
+
+/// The visibility at the start of the rays.
+pub fn shadow(gpu: &Gpu, shadow: Shadow, field: &Field, view: &View, rays: &[Ray]) -> Vec<f32> {
+    let probe = Probe::new(gpu, Technique::Normal, shadow).expect("the shader compiles");
+    let readback = probe.shadow(gpu, field, view, rays);
+    bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback))
+}
+
+/// Kinds of rays that break what is nearly right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Adversary {
+    /// Along an axis, either way.
+    AxisParallel,
+    /// Diagonally through the corners of cells.
+    Diagonal,
+    /// Exactly along a border between cells.
+    AlongBorder,
+    /// Straight down or up.
+    Vertical,
+    /// 0.1° above the surface.
+    Grazing,
+    /// From a border, or from a corner, anywhere.
+    FromBorder,
+    /// Over hundreds of tiles.
+    Long,
+    /// Nearly along an axis: crossings of the other are far apart and close to those of the first.
+    NearlyParallel,
+}
+
+impl Adversary {
+    /// Every kind.
+    pub const ALL: [Self; 8] = [
+        Self::AxisParallel,
+        Self::Diagonal,
+        Self::AlongBorder,
+        Self::Vertical,
+        Self::Grazing,
+        Self::FromBorder,
+        Self::Long,
+        Self::NearlyParallel,
+    ];
+
+    /// Lattice position and travel of a ray of this kind.
+    pub fn ray(self, random: &mut Random, size: [u32; 2]) -> ([f32; 2], [f32; 2]) {
+        let anywhere = random_position(random, size);
+        let corner = anywhere.map(f32::round);
+        let length = random.logarithmic(0.3, 300.0);
+        let direction = random.direction();
+        let sign = random.sign();
+        let either = |flip: bool, [a, b]: [f32; 2]| if flip { [b, a] } else { [a, b] };
+        let flip = random.below(2) == 0;
+        match self {
+            Self::AxisParallel => (anywhere, either(flip, [sign * length, 0.0])),
+            Self::Diagonal => {
+                // An integer travel hits corners on the way exactly.
+                let length = length.ceil();
+                (corner, [sign * length, random.sign() * length])
+            }
+            Self::AlongBorder => {
+                let on_border = either(flip, [either(flip, anywhere)[0], either(flip, corner)[1]]);
+                (on_border, either(flip, [sign * length, 0.0]))
+            }
+            Self::Vertical => (anywhere, if flip { [0.0, 0.0] } else { [sign * 1e-30, 1e-25] }),
+            Self::Grazing => {
+                let length = 100.0 / 0.1_f32.to_radians().tan();
+                (anywhere, direction.map(|part| part * length))
+            }
+            Self::FromBorder => {
+                let from = either(flip, [corner[0], if sign > 0.0 { corner[1] } else { anywhere[1] }]);
+                (from, direction.map(|part| part * length))
+            }
+            Self::Long => {
+                let length = random.uniform(200.0, 400.0) * size[0].max(size[1]) as f32;
+                (anywhere, direction.map(|part| part * length))
+            }
+            Self::NearlyParallel => {
+                let across = random.sign() * length * random.logarithmic(1e-7, 1e-2);
+                let from = if random.below(2) == 0 { corner } else { anywhere };
+                (from, either(flip, [sign * length, across]))
+            }
+        }
+    }
+}
+
+/// A position over the field or a little beyond its border.
+pub fn random_position(random: &mut Random, size: [u32; 2]) -> [f32; 2] {
+    size.map(|size| random.uniform(-2.0, size as f32 + 1.0))
+}
+
+/// Lattice position and travel of a ray like those of pictures.
+pub fn random_ray(random: &mut Random, size: [u32; 2]) -> ([f32; 2], [f32; 2]) {
+    let length = random.logarithmic(0.1, 300.0);
+    (random_position(random, size), random.direction().map(|part| part * length))
+}
+
+/// Applies `check` to every index of 0..count on all cores, and returns what it says of each, in order.
+pub fn each<T: Send>(count: usize, check: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let chunk = count.div_ceil(cores).max(1);
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..count)
+            .step_by(chunk)
+            .map(|start| {
+                let check = &check;
+                scope.spawn(move || (start..(start + chunk).min(count)).map(check).collect::<Vec<_>>())
+            })
+            .collect();
+        threads.into_iter().flat_map(|thread| thread.join().expect("a check panicked, and has said why")).collect()
+    })
+}

@@ -1,0 +1,164 @@
+//! The exact trace against f64 quadratics of every cell on the way: a million random rays, a hundred thousand adversarial ones.
+
+use rilievo::reference::traversal::Line;
+use rilievo::reference::{HeightField, Ray};
+use rilievo::surface::Technique;
+use rilievo::surface::probe::Hit;
+
+use crate::support::fields::{ADDRESSINGS, Kind, Random};
+use crate::support::gpu::gpu;
+use crate::support::rays::{self, Adversary};
+use crate::support::tolerances;
+
+/// A texel, a row, a column, odd and prime sides, a power of two.
+const SIZES: [[u32; 2]; 5] = [[1, 1], [1, 61], [64, 1], [255, 257], [1024, 1024]];
+
+/// Rays of each field, so that they come to a million and a hundred thousand.
+const RANDOM_RAYS: usize = 1_000_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len());
+const ADVERSARIAL_RAYS: usize = 100_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len() * Adversary::ALL.len());
+
+/// What a comparison of the hits with the reference found.
+#[derive(Clone, Debug, Default)]
+struct Tally {
+    rays: usize,
+    /// Rays whose hit is off by more than rounding, as grazing rays' may be.
+    tangent: usize,
+    /// The largest misplacement of the others, in units of the tolerance.
+    largest: f64,
+    steps: u64,
+    failures: Vec<String>,
+}
+
+impl Tally {
+    fn of(field: &HeightField, rays: &[Ray], hits: &[Hit]) -> Self {
+        let judged = rays::each(rays.len(), |i| judge(field, &rays[i], &hits[i]));
+        let mut tally = Self { rays: rays.len(), ..Self::default() };
+        for (judgement, (ray, hit)) in judged.into_iter().zip(rays.iter().zip(hits)) {
+            tally.steps += u64::from(hit.steps);
+            match judgement {
+                Judgement::Agrees(misplacement) => tally.largest = tally.largest.max(misplacement),
+                Judgement::Tangent => tally.tangent += 1,
+                Judgement::Wrong(why) => tally.failures.push(format!("{why}\n    {ray:?}\n    {hit:?}")),
+            }
+        }
+        tally
+    }
+}
+
+enum Judgement {
+    /// The hit is where the reference has it, up to this share of the tolerance.
+    Agrees(f64),
+    /// It is elsewhere, but the ray grazes the surface at the one that was missed or gained.
+    Tangent,
+    Wrong(String),
+}
+
+/// Holds one hit against the reference.
+fn judge(field: &HeightField, ray: &Ray, hit: &Hit) -> Judgement {
+    if hit.status != Hit::HIT {
+        return Judgement::Wrong(format!("status {}", hit.status));
+    }
+    let line = Line::from(ray);
+    let begin = (line.height - field.range[1]).max(0.0);
+    let truth = line.meets(field, begin, line.height).unwrap_or(line.height);
+    let there = line.lattice_at(truth);
+    let here = hit.lattice.map(f64::from);
+    let t = f64::from(hit.t);
+
+    let reach = [ray.lattice.map(f64::from), here, there].iter().flatten().fold(0.0_f64, |reach, x| reach.max(x.abs()));
+    let cells = tolerances::lattice_bound(reach);
+    if distance(here, line.lattice_at(t)) > cells {
+        return Judgement::Wrong("the hit is not on its ray".to_owned());
+    }
+    // Wherever it is, it has to be on the surface.
+    let slope = steepness_around(field, here, cells);
+    let height = tolerances::hit_height(cells, slope);
+    let gap = line.height + line.rise * t - field.bilinear(here);
+    if gap.abs() > height || (f64::from(hit.height) - field.bilinear(here)).abs() > height {
+        return Judgement::Wrong(format!("{gap:e} off the surface, {height:e} allowed; the reference hits at {truth}"));
+    }
+    let misplacement = distance(here, there) / cells;
+    if misplacement <= 1.0 {
+        return Judgement::Agrees(misplacement);
+    }
+    if t > truth {
+        // It went through: how deep?
+        let (lowest, slope) = line.closest(field, truth, t);
+        let height = tolerances::hit_height(cells, slope);
+        if -lowest > height {
+            return Judgement::Wrong(format!("passed {:e} under the surface, {height:e} allowed; hit at {truth}", -lowest));
+        }
+    }
+    Judgement::Tangent
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// The steepest slope within `reach` cells of a position.
+fn steepness_around(field: &HeightField, [x, y]: [f64; 2], reach: f64) -> f64 {
+    let offsets = [-reach, 0.0, reach];
+    offsets.iter().flat_map(|dx| offsets.map(|dy| [x + dx, y + dy])).map(|at| field.steepness(at)).fold(0.0, f64::max)
+}
+
+/// Traces rays made by `make` over every kind of field, size and addressing, and reports what does not agree.
+fn compare(label: &str, count: usize, make: impl Fn(&mut Random, [u32; 2]) -> ([f32; 2], [f32; 2])) -> Option<Tally> {
+    let gpu = gpu()?;
+    let mut total = Tally::default();
+    for size in SIZES {
+        for addressing in ADDRESSINGS {
+            for kind in Kind::ALL {
+                let field = kind.field(size, addressing);
+                let mut random = Random::new(u64::from(size[0]) << 32 | u64::from(size[1]));
+                let rays: Vec<_> = (0..count)
+                    .map(|_| {
+                        let (lattice, travel) = make(&mut random, size);
+                        Ray::view(lattice, travel)
+                    })
+                    .collect();
+                let hits = rays::trace(gpu, Technique::Exact, &rays::upload(gpu, &field), &rays::view(&field), &rays);
+                let tally = Tally::of(&field, &rays, &hits);
+                for failure in tally.failures.iter().take(2) {
+                    eprintln!("{label}, {kind:?} {size:?} {addressing:?}: {failure}");
+                }
+                total.rays += tally.rays;
+                total.tangent += tally.tangent;
+                total.largest = total.largest.max(tally.largest);
+                total.steps += tally.steps;
+                total.failures.extend(tally.failures);
+            }
+        }
+    }
+    println!(
+        "{label}: {} rays, {} wrong, {} tangent, misplaced by at most {:.2} of the tolerance, {:.1} steps each",
+        total.rays,
+        total.failures.len(),
+        total.tangent,
+        total.largest,
+        total.steps as f64 / total.rays as f64
+    );
+    Some(total)
+}
+
+#[test]
+fn a_million_random_rays_hit_where_the_reference_does() {
+    let Some(tally) = compare("random", RANDOM_RAYS, rays::random_ray) else { return };
+    assert!(tally.rays >= 1_000_000);
+    assert_eq!(tally.failures.len(), 0);
+    assert!((tally.tangent as f64) < tolerances::TANGENT_SHARE * tally.rays as f64);
+}
+
+#[test]
+fn a_hundred_thousand_adversarial_rays_hit_where_the_reference_does() {
+    let mut rays = 0;
+    let mut wrong = 0;
+    for adversary in Adversary::ALL {
+        let make = |random: &mut Random, size: [u32; 2]| adversary.ray(random, size);
+        let Some(tally) = compare(&format!("{adversary:?}"), ADVERSARIAL_RAYS, make) else { return };
+        rays += tally.rays;
+        wrong += tally.failures.len();
+    }
+    assert!(rays >= 100_000);
+    assert_eq!(wrong, 0);
+}
