@@ -50,5 +50,5 @@ struct View {
     first_row: u32,              // of the band that channels are written for
 }
 
-@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(0) var<storage, read> view: View;
 @group(0) @binding(1) var bilinear: sampler;
