@@ -194,6 +194,16 @@ fn every_struct_that_crosses_the_border_has_a_twin() {
     }
 }
 
+/// What a uniform buffer costs on lavapipe: see `gpu::uniform`.
+#[test]
+fn no_shader_has_a_uniform_buffer() {
+    for parts in compositions() {
+        let module = module(&parts);
+        let uniform = module.global_variables.iter().find(|(_, variable)| variable.space == naga::AddressSpace::Uniform);
+        assert!(uniform.is_none(), "{parts:?}: {uniform:?}");
+    }
+}
+
 /// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
 #[test]
 fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {

@@ -59,7 +59,7 @@ struct StampTile {
     count: u32,
 }
 
-@group(1) @binding(0) var<uniform> params: StampParams;
+@group(1) @binding(0) var<storage, read> params: StampParams;
 @group(1) @binding(1) var relief: texture_storage_2d<r32float, read_write>;
 @group(1) @binding(2) var material_map: texture_storage_2d<r32uint, read_write>;
 @group(1) @binding(3) var<storage, read> tiles: array<StampTile>;

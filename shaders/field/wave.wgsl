@@ -29,7 +29,7 @@ struct WaveParams {
     sponge_width: f32,         // texels; 0: there is no sponge
 }
 
-@group(1) @binding(0) var<uniform> params: WaveParams;
+@group(1) @binding(0) var<storage, read> params: WaveParams;
 @group(1) @binding(1) var mask: texture_2d<u32>;
 @group(1) @binding(2) var previous: texture_storage_2d<r32float, read_write>;
 @group(1) @binding(3) var current: texture_2d<f32>;
@@ -104,7 +104,7 @@ struct WaveBatch {
 @group(1) @binding(4) var<storage, read> tiles: array<WaveTile>;
 @group(1) @binding(5) var<storage, read> members: array<WaveMember>;
 @group(1) @binding(6) var<storage, read> impulses: array<WaveImpulse>;
-@group(1) @binding(7) var<uniform> batch: WaveBatch;
+@group(1) @binding(7) var<storage, read> batch: WaveBatch;
 
 // Adds this step's impulses, one workgroup a touched tile, to u and u⁻ alike: to u alone they would be a kick as well.
 @compute @workgroup_size(WAVE_TILE, WAVE_TILE)

@@ -131,10 +131,16 @@ impl Program<'_> {
         picture
     }
 
-    /// Fails if the program is gone.
-    pub fn assert_runs(&mut self) {
-        let ended = self.child.as_mut().and_then(|child| child.try_wait().expect("its state can be asked"));
-        assert!(ended.is_none(), "the program ended: {ended:?}");
+    /// Whether it has not ended.
+    pub fn runs(&mut self) -> bool {
+        self.child.as_mut().is_some_and(|child| child.try_wait().expect("its state can be asked").is_none())
+    }
+
+    /// How much memory it has, KiB; none once it has ended.
+    pub fn resident_kibibytes(&self) -> Option<u64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.as_ref()?.id())).ok()?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+        line.split_whitespace().next()?.parse().ok()
     }
 
     /// Asks the window to close, as a user does.
