@@ -116,7 +116,15 @@ fn positions_are_where_the_ray_first_meets_the_surface() {
                 let t = ray.meets(&seen.field, 0.0, 1.0).expect("a ray that enters the slab ends in it");
                 let truth = ray.lattice_at(t);
                 let error = (truth[0] - found[0]).hypot(truth[1] - found[1]);
-                if std::env::var_os("DBG").is_some() && error>bound { println!("DBG {x},{y} err {error:.3e} bound {bound:.3e} ratio {:.2} t {t} gapslope {:e} largest {largest}", error/bound, (ray.gap(&seen.field,t+1e-6)-ray.gap(&seen.field,t-1e-6))/2e-6/ray.travel[0].hypot(ray.travel[1])); }
+                if std::env::var_os("DBG").is_some() && error > bound {
+                    println!(
+                        "DBG {x},{y} err {error:.3e} bound {bound:.3e} ratio {:.2} t {t} gapslope {:e} largest {largest}",
+                        error / bound,
+                        (ray.gap(&seen.field, t + 1e-6) - ray.gap(&seen.field, t - 1e-6))
+                            / 2e-6
+                            / ray.travel[0].hypot(ray.travel[1])
+                    );
+                }
                 if error <= bound {
                     continue;
                 }

@@ -15,8 +15,7 @@ const SIZES: [[u32; 2]; 5] = [[1, 1], [1, 61], [64, 1], [255, 257], [1024, 1024]
 
 /// Rays of each field, so that they come to a million and a hundred thousand.
 const RANDOM_RAYS: usize = 1_000_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len());
-const ADVERSARIAL_RAYS: usize =
-    100_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len() * Adversary::ALL.len());
+const ADVERSARIAL_RAYS: usize = 100_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len() * Adversary::ALL.len());
 
 /// What a comparison of the hits with the reference found.
 #[derive(Clone, Debug, Default)]
