@@ -190,8 +190,7 @@ impl Frame {
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
         let choice = self.choice();
         let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
-        let (stamps, compose, normals, pyramid) =
-            (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
