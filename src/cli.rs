@@ -298,8 +298,6 @@ struct Arguments {
     live: LiveOptions,
 }
 
-// One value exists, for as long as parsing takes: a box would only add noise.
-#[expect(clippy::large_enum_variant)]
 #[derive(Subcommand, Debug)]
 enum Mode {
     /// Show a scene in a window (the default)

@@ -11,14 +11,14 @@ pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
 
 /// The known name nearest to `name`, if any is near enough to be a slip of the finger.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    // 0.7 lets through a letter missing, doubled or swapped in the shortest names ("pmo", "exat") and keeps strangers apart.
-    const NEAR_ENOUGH: f64 = 0.7;
     let name = name.to_lowercase();
+    // One slip, and one more for every four letters: "pmo" is pom, "bulet-wal" is bullet-wall, "zzz" is nothing.
+    let slips = 1 + name.chars().count() / 4;
     known
         .iter()
-        .map(|&candidate| (strsim::jaro_winkler(&name, candidate), candidate))
-        .filter(|&(likeness, _)| likeness > NEAR_ENOUGH)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|&candidate| (strsim::damerau_levenshtein(&name, candidate), candidate))
+        .filter(|&(distance, _)| distance <= slips)
+        .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
 

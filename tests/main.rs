@@ -4,12 +4,14 @@
 //! - `field`, `surface`: proofs of what the kernels compute, on the GPU, against their references in f64.
 //! - `modes`: the panel, driven without a GPU, and the program in a real window, where there is a display to open one on.
 //! - `captures`: what the program writes, read back from its files as a script outside would.
+//! - `fallbacks`: adapters that lack what WebGPU's baseline lacks.
 //! - `support`: what they share; every tolerance stands once, in `support/tolerances.rs`.
 //!
 //! Tests run on a software adapter first, since that is what every machine can have. Where there is none they fail in CI and say
 //! loudly elsewhere that they skip.
 
 mod captures;
+mod fallbacks;
 mod field;
 mod house;
 mod modes;

@@ -73,3 +73,15 @@ pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 
 /// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
 pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
+
+/// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
+/// two or three.
+pub const GOLDEN_LEVELS: u8 = 3;
+
+/// Share of a golden's values that may differ by more: where a ray grazes or a shadow begins, one rounding decides a whole pixel.
+/// Some 24 pixels; turning the light of `bullet-wall` by one degree changes 0.0015.
+pub const GOLDEN_OUTLIERS: f64 = 0.001;
+
+/// Heights by which a picture's height may differ between the hardware's bilinear filter, with its 8 bits of fraction, and four
+/// loads: a 256th of the difference between two texels, and what that does to where a ray of `pom` meets the surface.
+pub const FILTERED_HEIGHT: f64 = 0.02;
