@@ -197,7 +197,7 @@ impl Panel {
             const TECHNIQUE: &str = "How the ray of a pixel finds the surface (T)";
             choice(ui, "Technique", TECHNIQUE, &mut trace.technique, was.technique, Technique::ALL, Technique::label);
             choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
-            let depth = Control::new("Depth", " mm", 0.0, 500.0).scale(1e3).decimals(1);
+            let depth = Control::new("Depth", " mm", 1.0, 500.0).scale(1e3).decimals(1);
             value(ui, &depth.tip("How far height 0 lies below the plane"), &mut plane.depth_metres, plane_was.depth_metres);
             if trace.technique == Technique::Pom {
                 let tip = "Samples along a ray that meets the surface head-on ([POM] eq. 1)";

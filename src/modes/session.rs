@@ -294,13 +294,15 @@ impl Session {
         if self.panel.scene == *self.frame.scene() {
             return;
         }
-        match self.frame.set_scene(&self.gpu, &self.panel.scene) {
+        // Each control keeps to its range, but what is stable depends on several at once.
+        let valid = self.panel.scene.validate().map_err(|error| error.to_string());
+        match valid.and_then(|()| self.frame.set_scene(&self.gpu, &self.panel.scene).map_err(|error| error.to_string())) {
             Ok(()) => {
                 self.clock.set_step(self.frame.step_seconds());
                 self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
             }
             Err(error) => {
-                self.panel.say_error(&error.to_string());
+                self.panel.say_error(&error);
                 self.panel.scene = self.frame.scene().clone();
             }
         }
