@@ -13,8 +13,8 @@
 //! loudly elsewhere that they skip.
 
 mod captures;
-mod fallbacks;
 mod command_line;
+mod fallbacks;
 mod field;
 mod house;
 mod io;
