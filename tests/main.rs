@@ -7,6 +7,7 @@
 //! - `fallbacks`: adapters that lack what WebGPU's baseline lacks.
 //! - `command_line`: exit codes, one sentence for an error, nothing left behind; the program runs as a process.
 //! - `io`: files in and out, whole, odd, damaged and hostile.
+//! - `speed`: what it may cost, measured side by side in one run.
 //! - `support`: what they share; every tolerance stands once, in `support/tolerances.rs`.
 //!
 //! Tests run on a software adapter first, since that is what every machine can have. Where there is none they fail in CI and say
@@ -20,5 +21,6 @@ mod house;
 mod io;
 mod modes;
 mod shaders;
+mod speed;
 mod support;
 mod surface;
