@@ -93,7 +93,8 @@ pub struct Plane {
     pub depth_metres: f32,
 }
 
-/// The height that the field starts from.
+/// The height that the field starts from. Bases without parameters are structs without fields: of a unit variant serde would
+/// accept any key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
 pub enum Base {
@@ -103,11 +104,11 @@ pub enum Base {
         height: f32,
     },
     /// A wall of bricks in running bond, the same that the `brick` albedo colours.
-    Bricks,
+    Bricks {},
     /// Rounded stones, the same that the `cobble` albedo colours.
-    Cobbles,
+    Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
-    Terrain,
+    Terrain {},
     /// An image's heights.
     Image {
         /// A PNG or EXR file.

@@ -23,7 +23,7 @@ fn masked(masked_features: wgpu::Features) -> Gpu {
 
 /// A still relief through `pom`, which samples by the filter where there is one.
 fn pom_channels(gpu: &Gpu) -> (Vec<Channel>, bool) {
-    let mut scene = Scene { base: Base::Terrain, ..Scene::default() };
+    let mut scene = Scene { base: Base::Terrain {}, ..Scene::default() };
     scene.field.size = [128, 128];
     scene.trace.technique = Technique::Pom;
     scene.trace.shadow = Shadow::PomSoft;

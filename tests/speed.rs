@@ -27,7 +27,7 @@ struct Relief {
 
 impl Relief {
     fn new(gpu: &Gpu, technique: Technique, size: u32) -> Self {
-        let mut scene = Scene { base: Base::Terrain, ..Scene::default() };
+        let mut scene = Scene { base: Base::Terrain {}, ..Scene::default() };
         scene.field.size = [1024, 1024];
         scene.trace.technique = technique;
         scene.trace.shadow = Shadow::None;
