@@ -208,9 +208,9 @@ pub struct Trace {
     pub technique: Technique,
     /// The shadow upon it.
     pub shadow: Shadow,
-    /// Samples of `pom` seen head-on ([POM] eq. 1, n_min).
+    /// Samples of `pom` seen head-on (\[POM\] eq. 1, n_min).
     pub pom_samples_min: u32,
-    /// Samples of `pom` seen edge-on ([POM] eq. 1, n_max).
+    /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
     /// Samples of `pom-soft` along the light ray.
     pub shadow_samples: u32,
