@@ -359,7 +359,11 @@ fn sentence(error: &clap::Error) -> String {
         }
         ErrorKind::ValueValidation => {
             let cause = std::error::Error::source(error).map(ToString::to_string).unwrap_or_default();
-            if cause.starts_with("unknown ") { cause } else { format!("`{argument}` cannot be `{value}`: {cause}") }
+            match (cause.starts_with("unknown "), value.is_empty()) {
+                (true, _) => cause,
+                (false, true) => format!("`{argument}` is empty: give it a value"),
+                (false, false) => format!("`{argument}` cannot be `{value}`: {cause}"),
+            }
         }
         ErrorKind::InvalidValue => format!("`{argument}` needs a value"),
         ErrorKind::MissingRequiredArgument => format!("`{argument}` is missing: `--help` says what it is for"),

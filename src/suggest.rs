@@ -12,14 +12,14 @@ pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
 /// The known name nearest to `name`, if any is near enough to be a slip of the finger.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let name = name.to_lowercase();
-    // One slip, and one more for every four letters: "pmo" is pom, "bulet-wal" is bullet-wall, "zzz" is nothing.
+    // One slip, and one more for every four letters: "pmo" is pom. Or the beginning of it, nearly: "bulet" is bullet-wall.
     let slips = 1 + name.chars().count() / 4;
     known
         .iter()
-        .map(|&candidate| (strsim::damerau_levenshtein(&name, candidate), candidate))
-        .filter(|&(distance, _)| distance <= slips)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate)
+        .map(|&candidate| (strsim::damerau_levenshtein(&name, candidate), strsim::jaro_winkler(&name, candidate), candidate))
+        .filter(|&(distance, likeness, _)| distance <= slips || likeness > 0.8)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(_, _, candidate)| candidate)
 }
 
 /// `a, b and c`, or with another conjunction.
@@ -41,6 +41,7 @@ mod tests {
         for (slip, meant) in [("exat", "exact"), ("pmo", "pom"), ("Normal", "normal"), ("norml", "normal")] {
             assert_eq!(nearest(slip, &known), Some(meant), "{slip}");
         }
+        assert_eq!(nearest("bulet", &["ripples", "bullet-wall", "relief"]), Some("bullet-wall"));
         assert_eq!(nearest("zzz", &known), None);
         assert_eq!(nearest("", &known), None);
     }
