@@ -58,7 +58,7 @@ pub const CRATER_LIP: f64 = 0.1;
 
 /// How far grains of the broken material stand out of an irregular crater or lack in it, in depths of its bowl: a texel each, whatever
 /// its size.
-pub const CRATER_GRAIN: f64 = 0.15;
+pub const CRATER_GRAIN: f64 = 0.06;
 
 /// How a stamp meets what is there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

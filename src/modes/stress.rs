@@ -164,7 +164,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
 }
 
 /// Waits for the GPU and returns the time since the first call.
-fn milliseconds_when_idle(gpu: &Gpu) -> f64 {
+pub fn milliseconds_when_idle(gpu: &Gpu) -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     // A device that is lost says so at the end of the frame.
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());

@@ -109,11 +109,11 @@ fn a_drop_upon_the_water_makes_waves_even_while_it_rains() {
     let (live, rain) = (directory.path().join("live"), directory.path().join("rain"));
     let out = live.to_string_lossy().into_owned();
     let small = ["--size", "240x180", "--field", "64"];
-    let program = desktop.open(directory.path(), "ripples", &[&small[..], &["--frames", "300", "--out", &out]].concat());
+    let program = desktop.open(directory.path(), "ripples", &[&small[..], &["--frames", "600", "--out", &out]].concat());
     // Held down to the end: drops fall until the last frame.
     program.hand("mousemove --window WINDOW 120 100 mousedown 1");
     assert_ended_well(&program.end());
-    capture("ripples", &[&small[..], &["--warmup", "299"]].concat(), &rain);
+    capture("ripples", &[&small[..], &["--warmup", "599"]].concat(), &rain);
     let changed = differing(&read_picture(&live), &read_picture(&rain), 0..240);
     assert!(changed > 100, "{changed} pixels changed");
 }

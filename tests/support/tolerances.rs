@@ -85,3 +85,9 @@ pub const GOLDEN_OUTLIERS: f64 = 0.001;
 /// Heights by which a picture's height may differ between the hardware's bilinear filter, with its 8 bits of fraction, and four
 /// loads: a 256th of the difference between two texels, and what that does to where a ray of `pom` meets the surface.
 pub const FILTERED_HEIGHT: f64 = 0.02;
+
+/// The surface pass of `exact` in times of that of `normal`: the project's budget on a software adapter.
+pub const EXACT_BUDGET: f64 = 4.0;
+
+/// From the start of the program to its first picture: the project's budget on a software adapter.
+pub const FIRST_PICTURE: std::time::Duration = std::time::Duration::from_secs(2);
