@@ -50,7 +50,7 @@ pub struct Session {
     pub pointer: Pointer,
     /// The keys of flight.
     pub flight: FlightKeys,
-    pub(super) rig: Rig,
+    rig: Rig,
     start: Start,
     load: Option<Load>,
     pacing: Pacing,
