@@ -359,7 +359,7 @@ fn sentence(error: &clap::Error) -> String {
         }
         ErrorKind::ValueValidation => {
             let cause = std::error::Error::source(error).map(ToString::to_string).unwrap_or_default();
-            match (cause.starts_with("unknown "), value.is_empty()) {
+            match (cause.contains("known are") || cause.starts_with("unknown "), value.is_empty()) {
                 (true, _) => cause,
                 (false, true) => format!("`{argument}` is empty: give it a value"),
                 (false, false) => format!("`{argument}` cannot be `{value}`: {cause}"),

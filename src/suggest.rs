@@ -3,6 +3,9 @@
 /// Says that `name` is no `kind` ("technique", "scene"), which ones there are, and which one was probably meant.
 pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
     let list = enumerate(known, "and");
+    if name.is_empty() {
+        return format!("the name of a {kind} is missing: known are {list}");
+    }
     match nearest(name, known) {
         Some(nearest) => format!("unknown {kind} `{name}`: did you mean `{nearest}`, of {list}?"),
         None => format!("unknown {kind} `{name}`: known are {list}"),
