@@ -72,7 +72,7 @@ pub struct CommonOptions {
     seed: Option<u64>,
 
     /// Size of the picture or window, pixels
-    #[arg(long = "size", value_name = "WxH", value_parser = size, default_value = "960x600", allow_negative_numbers = true)]
+    #[arg(long = "size", value_name = "WxH", value_parser = size, default_value = "960x600", allow_hyphen_values = true)]
     pub image_size: [u32; 2],
 
     /// Size of the height field, texels; N alone keeps the aspect of an image [default: the image's, or else the scene's]

@@ -2,16 +2,8 @@
 
 pub mod adapters;
 pub mod capture;
-mod gui;
-pub mod hand;
-pub mod input;
 pub mod live;
-pub mod panel;
-pub mod pick;
 mod progress;
-pub mod readings;
-mod screen;
-pub mod session;
 pub mod stress;
 
 use crate::cli::CommonOptions;

@@ -5,10 +5,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use egui::accesskit::Role;
-use rilievo::modes::hand::BrushKind;
-use rilievo::modes::input::Action;
-use rilievo::modes::panel::{Panel, set_style};
-use rilievo::modes::readings::Readings;
+use rilievo::modes::live::hand::BrushKind;
+use rilievo::modes::live::input::Action;
+use rilievo::modes::live::panel::{Panel, set_style};
+use rilievo::modes::live::readings::Readings;
 use rilievo::scene::{Boundary, Rain, Scene, Shots, Wave};
 use rilievo::surface::{Shadow, Technique};
 

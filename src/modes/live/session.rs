@@ -4,18 +4,19 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::capture::Picture;
+use super::hand;
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
 use super::readings::Readings;
-use super::{ModeError, hand};
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
 use crate::field::{self, base};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
 use crate::io::{png_file, shader_folder};
+use crate::modes::ModeError;
+use crate::modes::capture::Picture;
 use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
 

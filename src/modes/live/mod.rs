@@ -1,6 +1,15 @@
 //! Live: a window. The clock is the wall's, the picture goes to the screen.
 //!
-//! Here are the window, its events and its frames; what they mean is in [`super::input`], what they change in [`super::session`].
+//! Here are the window, its events and its frames; what they mean is in [`input`], what they change in [`session`].
+
+mod gui;
+pub mod hand;
+pub mod input;
+pub mod panel;
+pub mod pick;
+pub mod readings;
+mod screen;
+pub mod session;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,11 +24,11 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{ModifiersState, PhysicalKey};
 use winit::window::{Fullscreen, Window, WindowAttributes, WindowId};
 
-use super::gui::Gui;
-use super::input::{self, Action, Grip};
-use super::panel::{self, PANEL_WIDTH};
-use super::screen::{Acquired, Screen};
-use super::session::{DT_SECONDS, Pacing, Session};
+use self::gui::Gui;
+use self::input::{Action, Grip};
+use self::panel::PANEL_WIDTH;
+use self::screen::{Acquired, Screen};
+use self::session::{DT_SECONDS, Pacing, Session};
 use super::{ModeError, capture, start};
 use crate::cli::LiveOptions;
 use crate::frame::{FrameInput, check_limits};
@@ -328,7 +337,7 @@ fn scenes(started_with: &str, loaded: &LoadedScene) -> Vec<(String, String)> {
 }
 
 /// What makes the start of another scene. Of the command line, what suits every scene goes for it too: the field's size.
-fn scene_loader(options: &LiveOptions) -> super::session::Load {
+fn scene_loader(options: &LiveOptions) -> session::Load {
     let overrides = SceneOverrides { field: options.common.overrides().field, ..SceneOverrides::default() };
     let framed_size = framed_size(options);
     Box::new(move |name| scene_file::load(name, &overrides, framed_size).map(|loaded| start(&loaded)).map_err(ModeError::from))
