@@ -5,21 +5,22 @@
 // h₀ is the height where the ray starts, the paper's reference height, t the height that the ray has climbed. A sample h blocks
 // by what it rises above the ray, (h − h₀) − t, times a weight that is a function of the place alone:
 //
-//   visibility = 1 − clamp(strength · max ((h − h₀) − t) / t, 0, 1)
+//   visibility = 1 − clamp(strength · max ((h − h₀) − t) / max(t, t½), 0, 1)
 //
 // The weight 1 / t is the paper's penumbra, w_p = w_s (d_r − d_b) / d_b: seen from the receiver the blocker hides as much of
 // the light as the tangent of its elevation exceeds the light's, so the same rise hides less from further away, and a shadow
-// starts sharp where it meets its blocker. `strength` is the light's tangent over the height of the light. The paper's weights
-// belong to the tap's index and darken as taps are added.
+// starts sharp where it meets its blocker. `strength` is the light's tangent over the height of the light. t½ is half a texel
+// away: nearer ones say no more than the slope, and rounding over nothing is much. The paper's weights belong to the tap's
+// index and darken as taps are added.
 //
-// Three quarters of the samples look for the blocker, denser near the start, where contact shadows are; the rest bisect for its
-// edge between the best one and the one before. Without them the penumbra shows as many steps as there are samples.
+// Two thirds of the samples look for the blocker, denser near the start, where contact shadows are; the rest bisect for its
+// edge between the best one and the one before. Without them the penumbra shows as many plateaus as there are samples.
 //
 // Specification: src/reference/shadow_pom_soft.rs. Needs common/view, surface/ray and a height part.
 
 // How much steeper than the light the receiver sees the surface at t.
-fn shadow_pom_soft_excess(ray: Ray, surface: f32, t: f32) -> f32 {
-    return (sample_height(ray_at(ray, t)) - surface) / t - 1.0;
+fn shadow_pom_soft_excess(ray: Ray, surface: f32, near: f32, t: f32) -> f32 {
+    return (sample_height(ray_at(ray, t)) - surface - t) / max(t, near);
 }
 
 fn shadow(ray: Ray) -> f32 {
@@ -29,17 +30,18 @@ fn shadow(ray: Ray) -> f32 {
     if span <= 0.0 {
         return 1.0;
     }
+    let near = 0.5 / max(length(ray.travel), 1e-6);
     let count = u32(view.shadow_samples);
-    let edge = count / 4u;
+    let edge = count / 3u;
     let coarse = count - edge;
-    var most = 0.0;
+    var most = -1.0;
     var at = 0.0;
     var before = 0.0;
     var previous = 0.0;
     for (var i = 0u; i < coarse; i++) {
         let share = (f32(i) + 0.5) / f32(coarse);
         let t = span * share * sqrt(share);
-        let excess = shadow_pom_soft_excess(ray, surface, t);
+        let excess = shadow_pom_soft_excess(ray, surface, near, t);
         if excess > most {
             most = excess;
             at = t;
@@ -47,16 +49,14 @@ fn shadow(ray: Ray) -> f32 {
         }
         previous = t;
     }
-    if most > 0.0 {
-        for (var i = 0u; i < edge; i++) {
-            let middle = 0.5 * (before + at);
-            let excess = shadow_pom_soft_excess(ray, surface, middle);
-            if excess > most {
-                most = excess;
-                at = middle;
-            } else {
-                before = middle;
-            }
+    for (var i = 0u; i < edge; i++) {
+        let middle = 0.5 * (before + at);
+        let excess = shadow_pom_soft_excess(ray, surface, near, middle);
+        if excess > most {
+            most = excess;
+            at = middle;
+        } else {
+            before = middle;
         }
     }
     return 1.0 - clamp(view.shadow_strength * most, 0.0, 1.0);

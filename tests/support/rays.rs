@@ -7,7 +7,7 @@ use rilievo::reference::{Addressing, HeightField, Ray};
 use rilievo::surface::probe::Hit;
 use rilievo::surface::{Probe, Shadow, Technique, View};
 
-use super::fields::Random;
+use super::fields::{ADDRESSINGS, Kind, Random};
 use super::gpu::{run, wait_for};
 
 /// A field on the GPU, heights and bounds.
@@ -49,6 +49,32 @@ pub fn shadow(gpu: &Gpu, shadow: Shadow, field: &Field, view: &View, rays: &[Ray
     let probe = Probe::new(gpu, Technique::Normal, shadow).expect("the shader compiles");
     let readback = probe.shadow(gpu, field, view, rays);
     bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback))
+}
+
+/// A texel, a row, a column, odd and prime sides, a power of two.
+const SIZES: [[u32; 2]; 5] = [[1, 1], [1, 61], [64, 1], [255, 257], [1024, 1024]];
+
+const FIELDS: usize = SIZES.len() * ADDRESSINGS.len() * Kind::ALL.len();
+
+/// Random rays of each field, so that they come to a million.
+pub const RANDOM: usize = 1_000_000_usize.div_ceil(FIELDS);
+
+/// Adversarial rays of each kind and each field, so that they come to a hundred thousand.
+pub const ADVERSARIAL: usize = 100_000_usize.div_ceil(FIELDS * Adversary::ALL.len());
+
+/// Makes `count` rays, lattice position and travel, with `make` over every kind of field, size and addressing.
+pub fn over_every_field(
+    count: usize,
+    make: impl Fn(&mut Random, [u32; 2]) -> ([f32; 2], [f32; 2]),
+    mut visit: impl FnMut(Kind, &HeightField, &[([f32; 2], [f32; 2])]),
+) {
+    for size in SIZES {
+        let mut random = Random::new(u64::from(size[0]) << 32 | u64::from(size[1]));
+        for (addressing, kind) in ADDRESSINGS.into_iter().flat_map(|addressing| Kind::ALL.map(|kind| (addressing, kind))) {
+            let rays: Vec<_> = (0..count).map(|_| make(&mut random, size)).collect();
+            visit(kind, &kind.field(size, addressing), &rays);
+        }
+    }
 }
 
 /// Kinds of rays that break what is nearly right.
@@ -152,4 +178,20 @@ pub fn each<T: Send>(count: usize, check: impl Fn(usize) -> T + Sync) -> Vec<T> 
             .collect();
         threads.into_iter().flat_map(|thread| thread.join().expect("a check panicked, and has said why")).collect()
     })
+}
+
+/// The steepest slope within `reach` cells of a position, in heights for each cell.
+pub fn steepness_around(field: &HeightField, [x, y]: [f64; 2], reach: f64) -> f64 {
+    let offsets = [-reach, 0.0, reach];
+    offsets.iter().flat_map(|dx| offsets.map(|dy| [x + dx, y + dy])).map(|at| field.steepness(at)).fold(0.0, f64::max)
+}
+
+/// The largest lattice coordinate of these points.
+pub fn reach(points: &[[f64; 2]]) -> f64 {
+    points.iter().flatten().fold(0.0, |reach: f64, x| reach.max(x.abs()))
+}
+
+/// The distance of two lattice positions, cells.
+pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }

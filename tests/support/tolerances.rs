@@ -91,3 +91,26 @@ pub const EXACT_BUDGET: f64 = 4.0;
 
 /// From the start of the program to its first picture: the project's budget on a software adapter.
 pub const FIRST_PICTURE: std::time::Duration = std::time::Duration::from_secs(2);
+
+/// The ray's parameter at a hit of `pom` against the f64 reference: the filter's precision over the angle between ray and
+/// surface, which on the smooth fields of that test is seldom under a tenth.
+pub const POM_PARAMETER: f64 = 1e-4;
+
+/// Share of rays of `pom` that may end elsewhere: a sample that only just misses the surface, by rounding, hits it later.
+pub const POM_OFF_SHARE: f64 = 1e-3;
+
+/// How far a hundredth of a sample may move the parameter of a hit on a smooth field. A count that jumped by one would move it
+/// by twenty times as much.
+pub const POM_JUMP: f64 = 1e-3;
+
+/// Visibility of `pom-soft` against the f64 reference: the rounding of a height over the rise of its place, times the strength.
+pub const SOFT_VISIBILITY: f64 = 1e-3;
+
+/// Share of receivers where it may differ by more: two samples that block alike, and rounding decides whose edge is searched.
+pub const SOFT_OFF_SHARE: f64 = 2e-3;
+
+/// Mean difference that samples above the stated count make: a hundredth is at the limit of what one sees.
+pub const SOFT_CONVERGED: f64 = 0.01;
+
+/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: one in 32 is hardly seen.
+pub const SOFT_STEP: f64 = 1.0 / 32.0;

@@ -5,17 +5,10 @@ use rilievo::reference::{HeightField, Ray};
 use rilievo::surface::Technique;
 use rilievo::surface::probe::Hit;
 
-use crate::support::fields::{ADDRESSINGS, Kind, Random};
+use crate::support::fields::Random;
 use crate::support::gpu::gpu;
 use crate::support::rays::{self, Adversary};
 use crate::support::tolerances;
-
-/// A texel, a row, a column, odd and prime sides, a power of two.
-const SIZES: [[u32; 2]; 5] = [[1, 1], [1, 61], [64, 1], [255, 257], [1024, 1024]];
-
-/// Rays of each field, so that they come to a million and a hundred thousand.
-const RANDOM_RAYS: usize = 1_000_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len());
-const ADVERSARIAL_RAYS: usize = 100_000_usize.div_ceil(Kind::ALL.len() * ADDRESSINGS.len() * SIZES.len() * Adversary::ALL.len());
 
 /// What a comparison of the hits with the reference found.
 #[derive(Clone, Debug, Default)]
@@ -65,19 +58,18 @@ fn judge(field: &HeightField, ray: &Ray, hit: &Hit) -> Judgement {
     let here = hit.lattice.map(f64::from);
     let t = f64::from(hit.t);
 
-    let reach = [ray.lattice.map(f64::from), here, there].iter().flatten().fold(0.0_f64, |reach, x| reach.max(x.abs()));
-    let cells = tolerances::lattice_bound(reach);
-    if distance(here, line.lattice_at(t)) > cells {
+    let cells = tolerances::lattice_bound(rays::reach(&[line.lattice, here, there]));
+    if rays::distance(here, line.lattice_at(t)) > cells {
         return Judgement::Wrong("the hit is not on its ray".to_owned());
     }
     // Wherever it is, it has to be on the surface.
-    let slope = steepness_around(field, here, cells);
+    let slope = rays::steepness_around(field, here, cells);
     let height = tolerances::hit_height(cells, slope);
     let gap = line.height + line.rise * t - field.bilinear(here);
     if gap.abs() > height || (f64::from(hit.height) - field.bilinear(here)).abs() > height {
         return Judgement::Wrong(format!("{gap:e} off the surface, {height:e} allowed; the reference hits at {truth}"));
     }
-    let misplacement = distance(here, there) / cells;
+    let misplacement = rays::distance(here, there) / cells;
     if misplacement <= 1.0 {
         return Judgement::Agrees(misplacement);
     }
@@ -92,44 +84,23 @@ fn judge(field: &HeightField, ray: &Ray, hit: &Hit) -> Judgement {
     Judgement::Tangent
 }
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-/// The steepest slope within `reach` cells of a position.
-fn steepness_around(field: &HeightField, [x, y]: [f64; 2], reach: f64) -> f64 {
-    let offsets = [-reach, 0.0, reach];
-    offsets.iter().flat_map(|dx| offsets.map(|dy| [x + dx, y + dy])).map(|at| field.steepness(at)).fold(0.0, f64::max)
-}
-
-/// Traces rays made by `make` over every kind of field, size and addressing, and reports what does not agree.
+/// Traces rays made by `make` over every kind of field and reports what does not agree.
 fn compare(label: &str, count: usize, make: impl Fn(&mut Random, [u32; 2]) -> ([f32; 2], [f32; 2])) -> Option<Tally> {
     let gpu = gpu()?;
     let mut total = Tally::default();
-    for size in SIZES {
-        for addressing in ADDRESSINGS {
-            for kind in Kind::ALL {
-                let field = kind.field(size, addressing);
-                let mut random = Random::new(u64::from(size[0]) << 32 | u64::from(size[1]));
-                let rays: Vec<_> = (0..count)
-                    .map(|_| {
-                        let (lattice, travel) = make(&mut random, size);
-                        Ray::view(lattice, travel)
-                    })
-                    .collect();
-                let hits = rays::trace(gpu, Technique::Exact, &rays::upload(gpu, &field), &rays::view(&field), &rays);
-                let tally = Tally::of(&field, &rays, &hits);
-                for failure in tally.failures.iter().take(2) {
-                    eprintln!("{label}, {kind:?} {size:?} {addressing:?}: {failure}");
-                }
-                total.rays += tally.rays;
-                total.tangent += tally.tangent;
-                total.largest = total.largest.max(tally.largest);
-                total.steps += tally.steps;
-                total.failures.extend(tally.failures);
-            }
+    rays::over_every_field(count, make, |kind, field, rays| {
+        let rays: Vec<_> = rays.iter().map(|(lattice, travel)| Ray::view(*lattice, *travel)).collect();
+        let hits = rays::trace(gpu, Technique::Exact, &rays::upload(gpu, field), &rays::view(field), &rays);
+        let tally = Tally::of(field, &rays, &hits);
+        for failure in tally.failures.iter().take(2) {
+            eprintln!("{label}, {kind:?} {:?} {:?}: {failure}", field.size, field.addressing);
         }
-    }
+        total.rays += tally.rays;
+        total.tangent += tally.tangent;
+        total.largest = total.largest.max(tally.largest);
+        total.steps += tally.steps;
+        total.failures.extend(tally.failures);
+    });
     println!(
         "{label}: {} rays, {} wrong, {} tangent, misplaced by at most {:.2} of the tolerance, {:.1} steps each",
         total.rays,
@@ -143,7 +114,7 @@ fn compare(label: &str, count: usize, make: impl Fn(&mut Random, [u32; 2]) -> ([
 
 #[test]
 fn a_million_random_rays_hit_where_the_reference_does() {
-    let Some(tally) = compare("random", RANDOM_RAYS, rays::random_ray) else { return };
+    let Some(tally) = compare("random", rays::RANDOM, rays::random_ray) else { return };
     assert!(tally.rays >= 1_000_000);
     assert_eq!(tally.failures.len(), 0);
     assert!((tally.tangent as f64) < tolerances::TANGENT_SHARE * tally.rays as f64);
@@ -155,7 +126,7 @@ fn a_hundred_thousand_adversarial_rays_hit_where_the_reference_does() {
     let mut wrong = 0;
     for adversary in Adversary::ALL {
         let make = |random: &mut Random, size: [u32; 2]| adversary.ray(random, size);
-        let Some(tally) = compare(&format!("{adversary:?}"), ADVERSARIAL_RAYS, make) else { return };
+        let Some(tally) = compare(&format!("{adversary:?}"), rays::ADVERSARIAL, make) else { return };
         rays += tally.rays;
         wrong += tally.failures.len();
     }
