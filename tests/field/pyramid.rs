@@ -75,7 +75,11 @@ fn rows_and_columns_equal_the_reference() {
 /// Small numbers, and those around a power of two or its three halves, where remainders chain.
 fn of_interest(n: u32) -> bool {
     let near = |pivot: u32| n.abs_diff(pivot) <= 2;
-    n <= 130 || near(n.next_power_of_two()) || near(n.next_power_of_two() / 2) || near(n.next_power_of_two() / 4 * 3) || n % 97 == 0
+    n <= 130
+        || near(n.next_power_of_two())
+        || near(n.next_power_of_two() / 2)
+        || near(n.next_power_of_two() / 4 * 3)
+        || n % 97 == 0
 }
 
 #[test]

@@ -67,7 +67,8 @@ fn elevation(x: u32, y: u32) -> f32 {
 /// Four waves that fit the field, so that it has no seam where it wraps.
 fn waves(x: u32, y: u32, size: [u32; 2]) -> f32 {
     let phase = |kx: f32, ky: f32| std::f32::consts::TAU * (kx * x as f32 / size[0] as f32 + ky * y as f32 / size[1] as f32);
-    let sum = phase(3.0, 1.0).cos() + 0.6 * phase(-5.0, 7.0).cos() + 0.3 * phase(11.0, -2.0).sin() + 0.15 * phase(23.0, 29.0).cos();
+    let sum =
+        phase(3.0, 1.0).cos() + 0.6 * phase(-5.0, 7.0).cos() + 0.3 * phase(11.0, -2.0).sin() + 0.15 * phase(23.0, 29.0).cos();
     (0.5 + 0.22 * sum).clamp(0.0, 1.0)
 }
 

@@ -32,9 +32,8 @@ fn sampled(field: &HeightField, samples: f32) -> View {
 
 /// How many samples the reference says that a ray takes, by the view.
 fn samples(view: &View, ray: &Ray) -> f64 {
-    let travel_metres = [0, 1].map(|axis| {
-        f64::from(ray.travel[axis]) * f64::from(view.plane_size_metres[axis]) / f64::from(view.field_size[axis])
-    });
+    let travel_metres = [0, 1]
+        .map(|axis| f64::from(ray.travel[axis]) * f64::from(view.plane_size_metres[axis]) / f64::from(view.field_size[axis]));
     let range = [f64::from(view.pom_samples_min), f64::from(view.pom_samples_max)];
     trace_pom::samples(travel_metres, f64::from(view.depth_metres), range)
 }
@@ -53,8 +52,9 @@ fn off(gpu: &Gpu, field: &HeightField, rays: &[Ray]) -> f64 {
 #[test]
 fn rays_end_where_the_references_do() {
     let Some(gpu) = gpu() else { return };
-    for (kind, addressing) in
-        [Kind::Elevation, Kind::Waves, Kind::Constant].into_iter().flat_map(|kind| ADDRESSINGS.map(|addressing| (kind, addressing)))
+    for (kind, addressing) in [Kind::Elevation, Kind::Waves, Kind::Constant]
+        .into_iter()
+        .flat_map(|kind| ADDRESSINGS.map(|addressing| (kind, addressing)))
     {
         let field = kind.field([200, 150], addressing);
         let off = off(gpu, &field, &random_rays(41, 20_000, field.size));
@@ -67,7 +67,8 @@ fn an_adapter_that_filters_no_floats_sees_the_same() {
     if gpu().is_none() {
         return;
     }
-    let preference = Preference { software_first: true, masked_features: wgpu::Features::FLOAT32_FILTERABLE, ..Preference::default() };
+    let preference =
+        Preference { software_first: true, masked_features: wgpu::Features::FLOAT32_FILTERABLE, ..Preference::default() };
     let gpu = pollster::block_on(Gpu::new(&preference.with_environment())).expect("there is an adapter, as gpu() found");
     assert!(!gpu.filters_r32float());
     let field = Kind::Elevation.field([200, 150], Addressing::Wrap);

@@ -33,7 +33,9 @@ fn the_reference_meets_the_surface_first_where_samples_say() {
 #[test]
 fn the_reference_crosses_every_cell_once_and_without_gaps() {
     let field = Kind::Noise.field([7, 5], Addressing::Wrap);
-    for (lattice, travel) in [([0.0, 0.0], [5.0, 5.0]), ([3.0, 2.5], [-20.0, 0.0]), ([0.3, 0.7], [8.1, -3.3]), ([2.0, 2.0], [0.0, 0.0])] {
+    for (lattice, travel) in
+        [([0.0, 0.0], [5.0, 5.0]), ([3.0, 2.5], [-20.0, 0.0]), ([0.3, 0.7], [8.1, -3.3]), ([2.0, 2.0], [0.0, 0.0])]
+    {
         let line = Line::from(&Ray::view(lattice, travel));
         let stretches: Vec<_> = line.stretches(&field, 0.0, 1.0).collect();
         assert_eq!(stretches[0].t, 0.0);
