@@ -109,8 +109,11 @@ pub const SOFT_VISIBILITY: f64 = 1e-3;
 /// Share of receivers where it may differ by more: two samples that block alike, and rounding decides whose edge is searched.
 pub const SOFT_OFF_SHARE: f64 = 2e-3;
 
-/// Mean difference that samples above the stated count make: a hundredth is at the limit of what one sees.
-pub const SOFT_CONVERGED: f64 = 0.01;
+/// Mean difference that samples above the stated count make: a quarter of a step of an 8-bit picture.
+pub const SOFT_CONVERGED: f64 = 1e-3;
 
-/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: one in 32 is hardly seen.
-pub const SOFT_STEP: f64 = 1.0 / 32.0;
+/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: a tenth of that is what the fall itself makes.
+pub const SOFT_STEP: f64 = 1.0 / 64.0;
+
+/// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
+pub const SOFT_VARIATION: f64 = 1.01;
