@@ -10,7 +10,7 @@ struct PresentParams {
     pad: u32,
 }
 
-@group(1) @binding(0) var<uniform> params: PresentParams;
+@group(1) @binding(0) var<storage, read> params: PresentParams;
 @group(1) @binding(1) var radiance: texture_2d<f32>;
 
 @vertex

@@ -182,6 +182,28 @@ impl Frame {
         self.dirty = Dirty::All;
     }
 
+    /// Builds every pass anew from the device's present shaders, and leaves the field as it is.
+    ///
+    /// # Errors
+    ///
+    /// A shader does not compile: the frame goes on with the passes it had.
+    pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+        let choice = self.choice();
+        let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
+        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
+        let present = Present::new(gpu, self.present.target())?;
+        // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
+        let set = surface.bind(gpu, &self.field);
+        self.surfaces = HashMap::from([(choice, (surface, set))]);
+        (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
+        if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
+            *waves = new;
+        }
+        self.dirty = Dirty::All;
+        Ok(())
+    }
+
     /// Takes over what does not change the field's contents: trace, light, material, depth, the wave's speed, damping and border.
     ///
     /// # Errors

@@ -20,7 +20,7 @@ pub struct PresentParams {
 pub struct Present {
     pipeline: wgpu::RenderPipeline,
     layout: BindingLayout,
-    encodes: bool,
+    target: wgpu::TextureFormat,
 }
 
 /// The bindings of one radiance texture.
@@ -64,7 +64,12 @@ impl Present {
             multiview_mask: None,
             cache: None,
         });
-        Ok(Self { pipeline, layout, encodes: !target.is_srgb() })
+        Ok(Self { pipeline, layout, target })
+    }
+
+    /// The format of its targets.
+    pub fn target(&self) -> wgpu::TextureFormat {
+        self.target
     }
 
     /// Binds a radiance texture.
@@ -85,7 +90,7 @@ impl Present {
     ) {
         set.params.write(
             recorder.gpu,
-            &PresentParams { supersampling, encode: u32::from(self.encodes), tone_map: u32::from(tone_map), pad: 0 },
+            &PresentParams { supersampling, encode: u32::from(!self.target.is_srgb()), tone_map: u32::from(tone_map), pad: 0 },
         );
         recorder.render("present", target, |pass| {
             pass.set_pipeline(&self.pipeline);

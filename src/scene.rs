@@ -8,7 +8,8 @@ mod validate;
 
 use std::path::PathBuf;
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
 
@@ -66,6 +67,7 @@ pub struct Scene {
 #[serde(deny_unknown_fields, default)]
 pub struct FieldSettings {
     /// Width and height, texels.
+    #[serde(deserialize_with = "exactly")]
     pub size: [u32; 2],
     /// What lies beyond the border.
     pub addressing: Addressing,
@@ -91,7 +93,8 @@ pub struct Plane {
     pub depth_metres: f32,
 }
 
-/// The height that the field starts from.
+/// The height that the field starts from. Bases without parameters are structs without fields: of a unit variant serde would
+/// accept any key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
 pub enum Base {
@@ -101,17 +104,17 @@ pub enum Base {
         height: f32,
     },
     /// A wall of bricks in running bond, the same that the `brick` albedo colours.
-    Bricks,
+    Bricks {},
     /// Rounded stones, the same that the `cobble` albedo colours.
-    Cobbles,
+    Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
-    Terrain,
+    Terrain {},
     /// An image's heights.
     Image {
         /// A PNG or EXR file.
         path: PathBuf,
         /// The heights in the file that become 0 and 1; absent: they stand as they are.
-        #[serde(default)]
+        #[serde(default, deserialize_with = "exactly_or_none")]
         range: Option<[f32; 2]>,
     },
 }
@@ -169,8 +172,10 @@ pub struct Rain {
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// Its centre, uv.
+    #[serde(deserialize_with = "exactly")]
     pub centre: [f32; 2],
     /// Half its extent along u and v, metres.
+    #[serde(deserialize_with = "exactly")]
     pub half_extent_metres: [f32; 2],
     /// Radius of its corners, metres: as large as the half extent makes it round.
     #[serde(default)]
@@ -187,6 +192,7 @@ pub struct Shots {
     /// Shots a second.
     pub per_second: f32,
     /// Smallest and largest radius of a crater's rim, metres.
+    #[serde(deserialize_with = "exactly")]
     pub radius_metres: [f32; 2],
     /// Depth of a crater of the largest radius, metres.
     pub depth_metres: f32,
@@ -202,9 +208,9 @@ pub struct Trace {
     pub technique: Technique,
     /// The shadow upon it.
     pub shadow: Shadow,
-    /// Samples of `pom` seen head-on ([POM] eq. 1, n_min).
+    /// Samples of `pom` seen head-on (\[POM\] eq. 1, n_min).
     pub pom_samples_min: u32,
-    /// Samples of `pom` seen edge-on ([POM] eq. 1, n_max).
+    /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
     /// Samples of `pom-soft` along the light ray.
     pub shadow_samples: u32,
@@ -225,12 +231,15 @@ pub struct Light {
     /// Direction toward the light: degrees above the plane.
     pub elevation_degrees: f32,
     /// Its colour, linear.
+    #[serde(deserialize_with = "exactly")]
     pub colour: [f32; 3],
     /// Its irradiance over π: a white surface that faces it has this radiance.
     pub intensity: f32,
     /// Radiance of the sky overhead, linear.
+    #[serde(deserialize_with = "exactly")]
     pub sky: [f32; 3],
     /// Radiance from below the horizon, linear.
+    #[serde(deserialize_with = "exactly")]
     pub ground: [f32; 3],
     /// Degrees a second that the light travels round the vertical.
     pub turn_degrees_per_second: f32,
@@ -243,6 +252,7 @@ pub struct Material {
     /// Its colours.
     pub albedo: Albedo,
     /// Tint of the albedo, linear.
+    #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
     /// Strength of the highlight, 0 to 1.
     pub specular: f32,
@@ -255,8 +265,10 @@ pub struct Material {
 #[serde(deny_unknown_fields, default)]
 pub struct Camera {
     /// The eye, metres.
+    #[serde(deserialize_with = "exactly")]
     pub eye: [f64; 3],
     /// The point in the middle of the picture, metres.
+    #[serde(deserialize_with = "exactly")]
     pub target: [f64; 3],
     /// Vertical field of view, degrees.
     pub vertical_fov_degrees: f64,
@@ -268,6 +280,19 @@ pub struct Camera {
 
 fn one() -> f32 {
     1.0
+}
+
+/// Reads an array of this very length: serde's own would stop after as many as it needs.
+fn exactly<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(deserializer: D) -> Result<[T; N], D::Error> {
+    let values = Vec::deserialize(deserializer)?;
+    let count = values.len();
+    values.try_into().map_err(|_| D::Error::custom(format!("{count} values where there must be {N}")))
+}
+
+fn exactly_or_none<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
+    deserializer: D,
+) -> Result<Option<[T; N]>, D::Error> {
+    exactly(deserializer).map(Some)
 }
 
 impl Default for Scene {

@@ -253,6 +253,23 @@ mod tests {
     }
 
     #[test]
+    fn shots_and_drops_come_when_they_are_due() {
+        let scene = scene();
+        let lattice = Lattice::of_scene(&scene);
+        let shots = Shots { per_second: 10.0, ..Shots::default() };
+        let fired = |until| shots_between(&shots, 1, &lattice, 0.0, until).count();
+        // The first at 0.05 s, which is the third frame's very time at 60 Hz; then one every tenth of a second.
+        assert_eq!([0.0, 2.0 / 60.0, 3.0 / 60.0, 0.149, 0.15, 1.0].map(fired), [0, 0, 1, 1, 2, 10]);
+        // Each drop falls in its own interval, and no interval goes without.
+        let rain = Rain { drops_per_second: 20.0, ..Rain::default() };
+        let step = 1e-3;
+        for interval in 0..200_u64 {
+            let drops = (interval * 50..(interval + 1) * 50).flat_map(|number| rain_in_step(&rain, 4, &lattice, step, number));
+            assert_eq!(drops.count(), 1, "interval {interval}");
+        }
+    }
+
+    #[test]
     fn stress_lifts_what_it_pressed() {
         let frame = |frame| stress_discs(3, frame, 100, 8.0, [256, 128]).collect::<Vec<_>>();
         let lifted: Vec<_> = frame(1).into_iter().map(|stamp| Stamp { height: -stamp.height, ..stamp }).collect();

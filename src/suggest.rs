@@ -3,6 +3,9 @@
 /// Says that `name` is no `kind` ("technique", "scene"), which ones there are, and which one was probably meant.
 pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
     let list = enumerate(known, "and");
+    if name.is_empty() {
+        return format!("the name of a {kind} is missing: known are {list}");
+    }
     match nearest(name, known) {
         Some(nearest) => format!("unknown {kind} `{name}`: did you mean `{nearest}`, of {list}?"),
         None => format!("unknown {kind} `{name}`: known are {list}"),
@@ -11,15 +14,15 @@ pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
 
 /// The known name nearest to `name`, if any is near enough to be a slip of the finger.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    // 0.7 lets through a letter missing, doubled or swapped in the shortest names ("pmo", "exat") and keeps strangers apart.
-    const NEAR_ENOUGH: f64 = 0.7;
     let name = name.to_lowercase();
+    // One slip, and one more for every four letters: "pmo" is pom. Or the beginning of it, nearly: "bulet" is bullet-wall.
+    let slips = 1 + name.chars().count() / 4;
     known
         .iter()
-        .map(|&candidate| (strsim::jaro_winkler(&name, candidate), candidate))
-        .filter(|&(likeness, _)| likeness > NEAR_ENOUGH)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate)
+        .map(|&candidate| (strsim::damerau_levenshtein(&name, candidate), strsim::jaro_winkler(&name, candidate), candidate))
+        .filter(|&(distance, likeness, _)| distance <= slips || likeness > 0.8)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(_, _, candidate)| candidate)
 }
 
 /// `a, b and c`, or with another conjunction.
@@ -41,6 +44,7 @@ mod tests {
         for (slip, meant) in [("exat", "exact"), ("pmo", "pom"), ("Normal", "normal"), ("norml", "normal")] {
             assert_eq!(nearest(slip, &known), Some(meant), "{slip}");
         }
+        assert_eq!(nearest("bulet", &["ripples", "bullet-wall", "relief"]), Some("bullet-wall"));
         assert_eq!(nearest("zzz", &known), None);
         assert_eq!(nearest("", &known), None);
     }

@@ -23,7 +23,7 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/region", "field/compose"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
-        &["field/stamp"],
+        &["common/noise", "field/stamp"],
         &["field/wave"],
         &["present"],
     ];
@@ -144,7 +144,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
-        ("Ray", layout!(Ray { lattice, travel, height, rise })),
+        ("Ray", layout!(Ray { lattice, travel, height, rise, cell })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
         ("StampParams", layout!(StampParams { size, tile_count })),
@@ -194,10 +194,20 @@ fn every_struct_that_crosses_the_border_has_a_twin() {
     }
 }
 
+/// What a uniform buffer costs on lavapipe: see `gpu::uniform`.
+#[test]
+fn no_shader_has_a_uniform_buffer() {
+    for parts in compositions() {
+        let module = module(&parts);
+        let uniform = module.global_variables.iter().find(|(_, variable)| variable.space == naga::AddressSpace::Uniform);
+        assert!(uniform.is_none(), "{parts:?}: {uniform:?}");
+    }
+}
+
 /// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
 #[test]
 fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
-    let module = module(&["field/stamp".to_owned()]);
+    let module = module(&["common/noise".to_owned(), "field/stamp".to_owned()]);
     let in_shader = |name: &str| {
         let (_, constant) = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name))?;
         match module.global_expressions[constant.init] {

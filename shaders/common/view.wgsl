@@ -50,5 +50,9 @@ struct View {
     first_row: u32,              // of the band that channels are written for
 }
 
-@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(0) var<storage, read> view_buffer: View;
 @group(0) @binding(1) var bilinear: sampler;
+
+// The invocation's own copy, which every entry point makes first: a traversal reads some of it at every step, and a software
+// adapter would go to the buffer each time.
+var<private> view: View;

@@ -16,7 +16,7 @@ struct ComposeParams {
 
 override TILE: u32;
 
-@group(1) @binding(0) var<uniform> params: ComposeParams;
+@group(1) @binding(0) var<storage, read> params: ComposeParams;
 @group(1) @binding(1) var relief: texture_2d<f32>;
 @group(1) @binding(2) var wave: texture_2d<f32>;
 @group(1) @binding(3) var height: texture_storage_2d<r32float, write>;

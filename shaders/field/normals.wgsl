@@ -15,7 +15,7 @@ struct NormalsParams {
 override WORKGROUP_X: u32;
 override WORKGROUP_Y: u32;
 
-@group(1) @binding(0) var<uniform> params: NormalsParams;
+@group(1) @binding(0) var<storage, read> params: NormalsParams;
 @group(1) @binding(1) var height: texture_2d<f32>;
 @group(1) @binding(2) var normal: texture_storage_2d<rgba16float, write>;
 

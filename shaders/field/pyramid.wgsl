@@ -16,7 +16,7 @@ struct PyramidParams {
 override WORKGROUP_X: u32;
 override WORKGROUP_Y: u32;
 
-@group(1) @binding(0) var<uniform> params: PyramidParams;
+@group(1) @binding(0) var<storage, read> params: PyramidParams;
 @group(1) @binding(1) var source: texture_2d<f32>;
 @group(1) @binding(2) var bounds: texture_storage_2d<r32float, write>;
 

@@ -6,7 +6,7 @@
 // One workgroup a touched tile gathers its stamps: no two write the same texel, so blends keep their order. 8 bytes a texel of
 // a touched tile read and, where a stamp covers it, written; half of that if all stamps are plain. A stamp that misses a texel
 // costs it a distance.
-// Specification: src/reference/stamp.rs.
+// Specification: src/reference/stamp.rs. Composed after common/noise.wgsl.
 
 override STAMP_TILE_X: u32;
 override STAMP_TILE_Y: u32;
@@ -15,6 +15,8 @@ override STAMP_PLAIN: bool;
 // The crater: its rim as a fraction of the radius, squared, and its lip's height as a fraction of its depth.
 override STAMP_RIM_SQUARED: f32;
 override STAMP_LIP: f32;
+// How far grains of the broken material in an irregular crater stand out or lack, as a fraction of its depth.
+override STAMP_GRAIN: f32;
 
 const STAMP_DISC: u32 = 0u;
 const STAMP_CONE: u32 = 1u;
@@ -57,7 +59,7 @@ struct StampTile {
     count: u32,
 }
 
-@group(1) @binding(0) var<uniform> params: StampParams;
+@group(1) @binding(0) var<storage, read> params: StampParams;
 @group(1) @binding(1) var relief: texture_storage_2d<r32float, read_write>;
 @group(1) @binding(2) var material_map: texture_storage_2d<r32uint, read_write>;
 @group(1) @binding(3) var<storage, read> tiles: array<StampTile>;
@@ -89,6 +91,7 @@ fn stamp_press(
     var material: vec4u;
     var soot: vec4f;
     var bare: vec4f;
+    var grain: vec4f;
     for (var k = 0u; k < 4u; k++) {
         height[k] = textureLoad(relief, vec2u(texel.x, rows[k])).x;
         if !STAMP_PLAIN {
@@ -96,6 +99,7 @@ fn stamp_press(
             let unpacked = unpack4x8unorm(material[k]);
             soot[k] = unpacked.r;
             bare[k] = unpacked.g;
+            grain[k] = 2.0 * STAMP_GRAIN * (hash_cell(vec2i(i32(texel.x), i32(rows[k])), 0u) - 0.5);
         }
     }
     var covered = vec4<bool>(false);
@@ -111,13 +115,17 @@ fn stamp_press(
         covered |= inside;
         let stamp = stamps[member.disc];
         let s = stamp_irregular(stamp, offset_x, offset_y, squared, 1.0 / (member.radius * member.radius));
-        let profile = stamp_profile(stamp.profile, s);
+        var profile = stamp_profile(stamp.profile, s);
+        if !STAMP_PLAIN && stamp.profile == STAMP_CRATER {
+            profile += stamp.irregularity * grain * saturate(3.0 - s * (3.0 / STAMP_RIM_SQUARED));
+        }
         height = select(height, stamp_blend(stamp, height, profile), inside);
         if !STAMP_PLAIN {
             // What lies within the rim is laid bare, which takes the old soot with it; then new soot falls, most round the rim.
             let bared = stamp.bare * (1.0 - smoothstep(vec4f(0.5 * STAMP_RIM_SQUARED), vec4f(STAMP_RIM_SQUARED), s));
             let falloff = max(vec4f(0.0), 1.0 - s);
-            let sooted = saturate(stamp.soot * falloff * falloff);
+            let outward = saturate(s * (1.0 / STAMP_RIM_SQUARED));
+            let sooted = saturate(stamp.soot * falloff * falloff * (0.25 + 0.75 * outward * outward));
             let left = soot * (1.0 - bared);
             soot = select(soot, left + (1.0 - left) * sooted, inside);
             bare = select(bare, bare + (1.0 - bare) * bared, inside);
@@ -187,10 +195,12 @@ fn stamp_profile(profile: u32, s: vec4f) -> vec4f {
     }
 }
 
-// A bowl from −1 up to its lip, and the lip's outer flank: slopes vanish at the centre, on the lip and at the border.
+// A bowl from −1 up to its lip, half of it a bore down its middle, and the lip's outer flank. Slopes vanish at the centre, on the
+// lip and at the border.
 fn stamp_crater(s: vec4f) -> vec4f {
     let x = s * (1.0 / STAMP_RIM_SQUARED);
-    let bowl = (1.0 + STAMP_LIP) * x * x * (3.0 - 2.0 * x) - 1.0;
+    let u = (1.0 - x) * (1.0 - x);
+    let bowl = 0.5 * (1.0 + STAMP_LIP) * (x * x * (3.0 - 2.0 * x) + (1.0 - u * u * u)) - 1.0;
     let y = saturate((s - STAMP_RIM_SQUARED) * (1.0 / (1.0 - STAMP_RIM_SQUARED)));
     let w = (1.0 - y) * (1.0 - y);
     let flank = STAMP_LIP * w * w * (1.0 + 4.0 * y);

@@ -26,5 +26,5 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let is_brick = smoothstep(-0.0012, 0.0012, min(from_edge.x, from_edge.y) + 0.0022 * (grain - 0.5));
     let broken = mix(vec3f(0.56, 0.50, 0.44), vec3f(0.66, 0.30, 0.175), is_brick) * mix(0.85, 1.15, grain);
     // Soot settles on the face, less on what broke off clean.
-    return sooty(mix(mix(mortar, face, is_brick), broken, stamped.g), stamped.r * (1.0 - 0.75 * stamped.g));
+    return sooty(mix(mix(mortar, face, is_brick), broken, stamped.g), stamped.r * (1.0 - 0.55 * stamped.g));
 }

@@ -19,6 +19,7 @@ override WORKGROUP_Y: u32;
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
 fn write_channels(@builtin(global_invocation_id) id: vec3u) {
+    view = view_buffer;
     let index = id.y * view.image_size.x + id.x;
     if id.x >= view.image_size.x || index >= arrayLength(&channels) {
         return;

@@ -4,10 +4,22 @@
 // so the slab is crossed from t = 0 to t = 1 at the latest.
 
 struct Ray {
-    lattice: vec2f, // lattice position at t = 0
+    lattice: vec2f, // lattice position at t = 0, counted from `cell`
     travel: vec2f,  // lattice displacement while t grows by 1
     height: f32,    // height at t = 0
     rise: f32,      // −1: a view ray, which falls; +1: a shadow ray, which climbs
+    cell: vec2i,    // a lattice position near the start: what is counted from it keeps the bits that its own size would cost
+}
+
+// The lattice position at t.
+fn ray_at(ray: Ray, t: f32) -> vec2f {
+    return vec2f(ray.cell) + (ray.lattice + t * ray.travel);
+}
+
+// A shadow ray from a lattice position.
+fn shadow_ray(lattice: vec2f, travel: vec2f, height: f32) -> Ray {
+    let cell = floor(lattice);
+    return Ray(lattice - cell, travel, height, 1.0, vec2i(cell));
 }
 
 // What became of a ray.

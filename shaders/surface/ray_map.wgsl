@@ -2,6 +2,7 @@
 
 struct PixelRay {
     ray: Ray,
+    lattice: vec2f,   // where it meets the plane
     denominator: f32, // eye height over distance along the view axis: grows downward from 0 at the horizon
 }
 
@@ -9,13 +10,24 @@ fn ray_map_evaluate(form: LinearForm, pixel: vec3f) -> f32 {
     return dot(form.exact.xyz, pixel) + dot(form.rest.xyz, pixel);
 }
 
+// The form less `whole` denominators.
+fn ray_map_remainder(form: LinearForm, whole: f32, pixel: vec3f) -> f32 {
+    let exact = fma(-whole, dot(view.denominator.exact.xyz, pixel), dot(form.exact.xyz, pixel));
+    return exact + (dot(form.rest.xyz, pixel) - whole * dot(view.denominator.rest.xyz, pixel));
+}
+
 // The ray through a point of the picture, in pixels from its upper left corner: pixel centres lie at ½.
 fn pixel_ray(position: vec2f) -> PixelRay {
     let pixel = vec3f(position, 1.0);
     let denominator = ray_map_evaluate(view.denominator, pixel);
-    let lattice = vec2f(ray_map_evaluate(view.lattice_x, pixel), ray_map_evaluate(view.lattice_y, pixel)) / denominator;
+    let nearly = vec2f(ray_map_evaluate(view.lattice_x, pixel), ray_map_evaluate(view.lattice_y, pixel)) / denominator;
+    // What is left over a whole cell, from the unrounded parts: a ray that all but grazes the surface magnifies every error of
+    // its start, and a position near 400 is rounded by 1.5e-5 cells.
+    let cell = floor(clamp(nearly, vec2f(-1.0), vec2f(view.field_size)));
+    let left = vec2f(ray_map_remainder(view.lattice_x, cell.x, pixel), ray_map_remainder(view.lattice_y, cell.y, pixel));
+    let lattice = left / denominator;
     let travel = vec2f(ray_map_evaluate(view.travel_x, pixel), ray_map_evaluate(view.travel_y, pixel)) / denominator;
-    return PixelRay(Ray(lattice, travel, 1.0, -1.0), denominator);
+    return PixelRay(Ray(lattice, travel, 1.0, -1.0, vec2i(cell)), cell + lattice, denominator);
 }
 
 // Whether the pixel looks down upon the plane's own plane, beyond the near distance.
@@ -25,7 +37,7 @@ fn ray_map_looks_down(denominator: f32) -> bool {
 
 // Whether the pixel's centre shows the plane.
 fn shows_plane(pixel: PixelRay) -> bool {
-    let inside = all(pixel.ray.lattice >= vec2f(-0.5)) && all(pixel.ray.lattice <= vec2f(view.field_size) - 0.5);
+    let inside = all(pixel.lattice >= vec2f(-0.5)) && all(pixel.lattice <= vec2f(view.field_size) - 0.5);
     return inside && ray_map_looks_down(pixel.denominator);
 }
 
@@ -37,9 +49,9 @@ fn plane_coverage(pixel: PixelRay) -> f32 {
     // The gradient of a quotient of two linear forms.
     let slope = view.denominator.exact.xy;
     let per_pixel = vec2f(
-        length(view.lattice_x.exact.xy - pixel.ray.lattice.x * slope),
-        length(view.lattice_y.exact.xy - pixel.ray.lattice.y * slope),
+        length(view.lattice_x.exact.xy - pixel.lattice.x * slope),
+        length(view.lattice_y.exact.xy - pixel.lattice.y * slope),
     ) / pixel.denominator;
-    let inside = min(pixel.ray.lattice + 0.5, vec2f(view.field_size) - 0.5 - pixel.ray.lattice) / per_pixel;
+    let inside = min(pixel.lattice + 0.5, vec2f(view.field_size) - 0.5 - pixel.lattice) / per_pixel;
     return clamp(min(inside.x, inside.y) + 0.5, 0.0, 1.0);
 }

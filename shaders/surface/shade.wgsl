@@ -33,7 +33,7 @@ fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
     if view.light_is_up == 0.0 || dot(normal_world, view.light_world) <= 0.0 {
         return 0.0;
     }
-    return shadow(Ray(lattice, view.light_in_field, height, 1.0));
+    return shadow(shadow_ray(lattice, view.light_in_field, height));
 }
 
 // How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of

@@ -10,14 +10,14 @@
 const SHADOW_HARD_LIFT: f32 = 9.6e-7;
 
 fn shadow(ray: Ray) -> f32 {
-    let start = load_surface(ray.lattice) + SHADOW_HARD_LIFT;
+    let start = load_surface(ray_at(ray, 0.0)) + SHADOW_HARD_LIFT;
 
     // Nothing is above the highest bound: there the ray is free.
     let highest = textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r + TRAVERSAL_SLACK;
     if start >= highest {
         return 1.0;
     }
-    let hit = traversal(Ray(ray.lattice, ray.travel, start, 1.0), 0.0, highest - start);
+    let hit = traversal(Ray(ray.lattice, ray.travel, start, 1.0, ray.cell), 0.0, highest - start);
     // A ray that gave up found no way out: it counts as shadowed.
     return select(0.0, 1.0, hit.status == MISS);
 }

@@ -22,11 +22,11 @@
 
 // How much steeper than the light the receiver sees the surface at t.
 fn shadow_pom_soft_excess(ray: Ray, surface: f32, near: f32, t: f32) -> f32 {
-    return (sample_height(ray.lattice + t * ray.travel) - surface - t) / max(t, near);
+    return (sample_height(ray_at(ray, t)) - surface - t) / max(t, near);
 }
 
 fn shadow(ray: Ray) -> f32 {
-    let surface = sample_height(ray.lattice);
+    let surface = sample_height(ray_at(ray, 0.0));
     // Beyond the slab nothing can block.
     let span = 1.0 - surface;
     if span <= 0.0 {

@@ -20,6 +20,7 @@ fn background(position: vec2f) -> vec3f {
 
 @fragment
 fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    view = view_buffer;
     let behind = background(position.xy);
     let pixel = pixel_ray(position.xy);
     let coverage = plane_coverage(pixel);

@@ -3,5 +3,5 @@
 // Specification: src/reference/trace_normal.rs.
 
 fn trace(ray: Ray) -> Hit {
-    return Hit(ray.lattice, ray.height, 0.0, 1u, HIT);
+    return Hit(ray_at(ray, 0.0), ray.height, 0.0, 1u, HIT);
 }

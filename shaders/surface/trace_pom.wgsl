@@ -19,18 +19,18 @@ fn trace_pom_samples(travel: vec2f) -> f32 {
 fn trace(ray: Ray) -> Hit {
     let step = 1.0 / trace_pom_samples(ray.travel);
     var t = 0.0;
-    var gap = ray.height - sample_height(ray.lattice);
+    var gap = ray.height - sample_height(ray_at(ray, 0.0));
     var steps = 1u;
     // The ray is at the floor, under everything, where t = ray.height: this ends there.
     while gap > 0.0 && t < ray.height {
         let t_above = t;
         let gap_above = gap;
         t = min(f32(steps) * step, ray.height);
-        gap = ray.height - t - sample_height(ray.lattice + t * ray.travel);
+        gap = ray.height - t - sample_height(ray_at(ray, t));
         steps += 1u;
         if gap <= 0.0 {
             t = mix(t_above, t, gap_above / (gap_above - gap));
         }
     }
-    return Hit(ray.lattice + t * ray.travel, ray.height - t, t, steps, HIT);
+    return Hit(ray_at(ray, t), ray.height - t, t, steps, HIT);
 }

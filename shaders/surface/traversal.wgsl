@@ -36,9 +36,9 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
     // Where the field's end lies, as one meets it: the next tile, or never.
     let end_border = select(select(vec2i(TRAVERSAL_FAR), vec2i(-TRAVERSAL_FAR), backward), cells, vec2<bool>(wraps));
 
-    // The cell at the start, and the texel at which its tile begins.
+    // The cell at the start, and the texel at which its tile begins, counted from the ray's own cell.
     let start = ray.lattice + t_begin * travel;
-    var cell = vec2i(select(floor(start), ceil(start) - 1.0, backward));
+    var cell = vec2i(select(floor(start), ceil(start) - 1.0, backward)) + ray.cell;
     var tile = vec2i(0);
     if wraps {
         tile = cell / cells;
@@ -47,6 +47,7 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
     } else {
         cell = clamp(cell, vec2i(-1), cells - 1);
     }
+    tile -= ray.cell;
 
     // Coarser first nodes are rarely clear of the surface, finer ones are many: half the ray's extent measured best.
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
@@ -74,12 +75,12 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
             let hit = traversal_leaf(ray, travel, cell, tile, t_under, t_out);
             if hit <= 1.0 {
                 let t_hit = t_under + hit * (t_out - t_under);
-                return Hit(ray.lattice + t_hit * travel, ray.height + ray.rise * t_hit, t_hit, steps, HIT);
+                return Hit(ray_at(ray, t_hit), ray.height + ray.rise * t_hit, t_hit, steps, HIT);
             }
         }
         let descends = enters && level > 0;
         if !descends && t_out >= t_end {
-            return Hit(ray.lattice + t_end * travel, ray.height + ray.rise * t_end, t_end, steps, select(MISS, HIT, falls));
+            return Hit(ray_at(ray, t_end), ray.height + ray.rise * t_end, t_end, steps, select(MISS, HIT, falls));
         }
 
         // Go there. Rounding never carries the cell out of the node …
@@ -105,7 +106,7 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
             tile += over;
         }
     }
-    return Hit(ray.lattice + t * travel, ray.height + ray.rise * t, t, steps, CAPPED);
+    return Hit(ray_at(ray, t), ray.height + ray.rise * t, t, steps, CAPPED);
 }
 
 // Where on its way through a cell, from 0 at t_in to 1 at t_out, the ray first meets the bilinear patch; 2 where it does not.

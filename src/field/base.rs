@@ -35,9 +35,9 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
     };
     match &scene.base {
         Base::Flat { height: level } => Some(vec![*level; width as usize * height as usize]),
-        Base::Bricks => Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y) / depth_metres)),
-        Base::Cobbles => Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y) / depth_metres)),
-        Base::Terrain => {
+        Base::Bricks {} => Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y) / depth_metres)),
+        Base::Cobbles {} => Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y) / depth_metres)),
+        Base::Terrain {} => {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
         }
@@ -49,7 +49,7 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
 pub fn rest_height(base: &Base) -> f32 {
     match base {
         Base::Flat { height } => *height,
-        Base::Bricks | Base::Cobbles | Base::Terrain | Base::Image { .. } => 1.0,
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Image { .. } => 1.0,
     }
 }
 
@@ -206,7 +206,7 @@ fn hash_u32(x: u32) -> u32 {
 }
 
 /// A number in [0, 1) for a lattice point and a salt; the twin of `hash_cell` in `shaders/common/noise.wgsl`.
-fn hash_cell(cell: [i32; 2], salt: u32) -> f64 {
+pub(crate) fn hash_cell(cell: [i32; 2], salt: u32) -> f64 {
     let mixed = hash_u32(cell[0] as u32 ^ hash_u32(cell[1] as u32 ^ hash_u32(salt)));
     f64::from(mixed >> 8) / 16_777_216.0
 }

@@ -230,3 +230,94 @@ pub fn tile_workgroups(tile_count: u32) -> [u32; 2] {
     const LONGEST: u32 = 65_535;
     [tile_count.min(LONGEST), tile_count.div_ceil(LONGEST)]
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// For each texel the discs that reach it, one entry an image, by trying every image of the field: in order of submission.
+    fn by_hand(ground: Ground, discs: &[Disc]) -> Vec<Vec<u32>> {
+        let mut reached = vec![Vec::new(); (ground.size[0] * ground.size[1]) as usize];
+        // No disc of the test reaches farther than 50 texels.
+        let images = [0, 1].map(|axis| {
+            if ground.wrap { -50 / i64::from(ground.size[axis]) - 1..=50 / i64::from(ground.size[axis]) + 1 } else { 0..=0 }
+        });
+        for (number, disc) in (0..).zip(discs) {
+            for image_y in images[1].clone() {
+                for image_x in images[0].clone() {
+                    for (index, reached) in reached.iter_mut().enumerate() {
+                        let x = (index as u32 % ground.size[0]) as f64 + (image_x * i64::from(ground.size[0])) as f64;
+                        let y = (index as u32 / ground.size[0]) as f64 + (image_y * i64::from(ground.size[1])) as f64;
+                        let away = (x - f64::from(disc.centre[0])).hypot(y - f64::from(disc.centre[1]));
+                        if away < f64::from(disc.radius) {
+                            reached.push(number);
+                        }
+                    }
+                }
+            }
+        }
+        reached
+    }
+
+    /// The same by the tiles' lists, deciding as the shader does.
+    fn by_tiles(ground: Ground, bins: &Bins) -> Vec<Vec<u32>> {
+        let mut reached = vec![Vec::new(); (ground.size[0] * ground.size[1]) as usize];
+        for tile in &bins.tiles {
+            for member in &bins.members[tile.first as usize..][..tile.count as usize] {
+                for y in 0..ground.tile[1] {
+                    for x in 0..ground.tile[0] {
+                        let texel = [tile.tile[0] * ground.tile[0] + x, tile.tile[1] * ground.tile[1] + y];
+                        let away = (f64::from(x) - f64::from(member.centre[0])).hypot(f64::from(y) - f64::from(member.centre[1]));
+                        if away < f64::from(member.radius) && texel[0] < ground.size[0] && texel[1] < ground.size[1] {
+                            reached[(texel[1] * ground.size[0] + texel[0]) as usize].push(member.disc);
+                        }
+                    }
+                }
+            }
+        }
+        reached
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        #[test]
+        fn tiles_gather_for_each_texel_the_discs_that_reach_it_in_their_order(
+            size in (1..24_u32, 1..24_u32),
+            wrap: bool,
+            // Quarters of texels, so that both sides agree about borders.
+            discs in prop::collection::vec((-40..140_i32, -40..140_i32, 1..60_i32), 0..12),
+            cut in 0..12_usize,
+        ) {
+            let ground = Ground { size: [size.0, size.1], wrap, tile: [8, 4] };
+            let quarter = |value: i32| value as f32 / 4.0;
+            let discs: Vec<_> =
+                discs.iter().map(|(x, y, r)| Disc { centre: [quarter(*x), quarter(*y)], radius: quarter(*r) }).collect();
+            // In two batches: the numbers go on, and each batch has its own tiles.
+            let (first, second) = discs.split_at(cut.min(discs.len()));
+            let mut bins = Bins::default();
+            let a = bins.add(ground, first.iter().copied(), u64::MAX).expect("there is no limit");
+            let b = bins.add(ground, second.iter().copied(), u64::MAX).expect("there is no limit");
+            prop_assert_eq!(a.tile_count, b.first_tile);
+            prop_assert_eq!(by_tiles(ground, &bins), by_hand(ground, &discs));
+        }
+    }
+
+    #[test]
+    fn the_members_that_are_listed_are_few() {
+        let ground = Ground { size: [1024, 1024], wrap: true, tile: [16, 8] };
+        let mut bins = Bins::default();
+        bins.add(ground, std::iter::once(Disc { centre: [511.5, 511.5], radius: 8.0 }), u64::MAX).expect("there is no limit");
+        // A box of 16×16 in the middle of four tiles meets 2×4, the disc as well but for none of its corners.
+        assert!(bins.members.len() <= 8, "{}", bins.members.len());
+    }
+
+    #[test]
+    fn tiles_beyond_one_row_of_workgroups_make_more_rows() {
+        assert_eq!(tile_workgroups(1), [1, 1]);
+        assert_eq!(tile_workgroups(65_535), [65_535, 1]);
+        assert_eq!(tile_workgroups(65_536), [65_535, 2]);
+    }
+}

@@ -1,4 +1,4 @@
-//! Normals: the slope of the height field, by a 3×3 Sobel gradient ([POM] §4, "dynamic normals").
+//! Normals: the slope of the height field, by a 3×3 Sobel gradient (\[POM\] §4, "dynamic normals").
 //!
 //! Reads [`Height`](super::Height), writes every texel of [`Normal`](super::Normal) in the regions given. 4 bytes in, 8 out a
 //! texel, the halo apart. Shader: `shaders/field/normals.wgsl`. Specification: [`crate::reference::normals`].

@@ -1,6 +1,6 @@
-//! Pyramid: upper bounds of the bilinear surface over ever larger nodes ([PDM] §3.1, made exact).
+//! Pyramid: upper bounds of the bilinear surface over ever larger nodes (\[PDM\] §3.1, made exact).
 //!
-//! [PDM] takes the bound over texels, which suits a piecewise-constant field. The bilinear surface in a cell depends on its four
+//! \[PDM\] takes the bound over texels, which suits a piecewise-constant field. The bilinear surface in a cell depends on its four
 //! corners, so level 0 is, for each *cell*, the maximum of those: bounds are then exact at every level. Upper levels are the
 //! maximum over their children; levels are mips of floor sizes, and the last node of a row or column takes the remainder.
 //!

@@ -25,7 +25,8 @@ pub enum Profile {
     /// (1 − ρ²)², smooth everywhere.
     #[default]
     Bump = 2,
-    /// A bowl of depth 1, its rim at ρ = [`CRATER_RIM`], the rim's lip [`CRATER_LIP`] high; slopes are continuous.
+    /// A bowl of depth 1 with a bore down its middle, its rim at ρ = [`CRATER_RIM`], the rim's lip [`CRATER_LIP`] high; slopes are
+    /// continuous.
     Crater = 3,
 }
 
@@ -39,11 +40,11 @@ impl Profile {
         match self {
             Self::Disc => PI,
             Self::Cone | Self::Bump => PI / 3.0,
-            // With s = ρ², dA = π ds: the bowl's (1 + lip)·x²(3 − 2x) − 1 over 0..1 is (1 + lip)/2 − 1, the flank's
-            // lip·(1 − y)⁴(1 + 4y) over 0..1 is lip/3.
+            // With s = ρ², dA = π ds. Over 0..1 the bowl's x²(3 − 2x) is 1/2, the bore's 1 − (1 − x)⁶ is 6/7, the mean of the two
+            // 19/28; the flank's (1 − y)⁴(1 + 4y) is 1/3.
             Self::Crater => {
                 let (rim, lip) = (CRATER_RIM * CRATER_RIM, CRATER_LIP);
-                PI * (rim * ((1.0 + lip) / 2.0 - 1.0) + (1.0 - rim) * lip / 3.0)
+                PI * (rim * ((1.0 + lip) * 19.0 / 28.0 - 1.0) + (1.0 - rim) * lip / 3.0)
             }
         }
     }
@@ -54,6 +55,10 @@ pub const CRATER_RIM: f64 = 0.5;
 
 /// Height of a crater's lip, in depths of its bowl.
 pub const CRATER_LIP: f64 = 0.1;
+
+/// How far grains of the broken material stand out of an irregular crater or lack in it, in depths of its bowl: a texel each, whatever
+/// its size.
+pub const CRATER_GRAIN: f64 = 0.06;
 
 /// How a stamp meets what is there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -92,7 +97,7 @@ pub struct Stamp {
     pub blend: Blend,
     /// How much of the layer it replaces, 0 to 1.
     pub alpha: f32,
-    /// How far its form departs from a circle: 0 none, 1 by up to half its radius.
+    /// How far its form departs from a circle: 0 none, 1 by up to half its radius. An irregular crater has grains in it, too.
     pub irregularity: f32,
     /// Which of the irregular forms, radians.
     pub phase: f32,
@@ -250,9 +255,10 @@ impl Stamps {
                 ("STAMP_TILE_Y", f64::from(Self::TILE[1])),
                 ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM),
                 ("STAMP_LIP", CRATER_LIP),
+                ("STAMP_GRAIN", CRATER_GRAIN),
                 ("STAMP_PLAIN", f64::from(u8::from(plain))),
             ];
-            Kernel::new(gpu, "stamp", &["field/stamp"], "stamp_press", &constants, &[None, Some(&layout)])
+            Kernel::new(gpu, "stamp", &["common/noise", "field/stamp"], "stamp_press", &constants, &[None, Some(&layout)])
         };
         let (plain, full) = (kernel(true)?, kernel(false)?);
         Ok(Self { plain, full, layout })

@@ -75,6 +75,10 @@ pub fn step_seconds(wave: &scene::Wave, texel_metres: f64) -> f64 {
 }
 
 /// Whether a wave can be simulated on a field of this size.
+///
+/// # Errors
+///
+/// A setting is out of range; the error says which, by how much, and what would do.
 pub fn check(wave: &scene::Wave, size: [u32; 2], texel_metres: f64) -> Result<(), WaveError> {
     let positive = |name, value: f32| {
         if value.is_finite() && value > 0.0 { Ok(()) } else { Err(WaveError::NotPositive { name, value }) }
@@ -108,7 +112,8 @@ pub fn sponge_damping(courant: f64, sponge_texels: u32) -> f64 {
 
 /// Whether an obstacle stands on a point of the plane: a box with rounded corners. Where the wave is periodic so is the obstacle.
 pub fn stands_on(obstacle: &Obstacle, uv: [f64; 2], plane_metres: [f64; 2], periodic: bool) -> bool {
-    let half = obstacle.half_extent_metres.map(f64::from);
+    // A negative extent, or one that is no number, is none.
+    let half = obstacle.half_extent_metres.map(|half| f64::from(half).max(0.0));
     let corner = f64::from(obstacle.corner_metres).clamp(0.0, half[0].min(half[1]));
     let outside = [0, 1].map(|axis| {
         let apart = uv[axis] - f64::from(obstacle.centre[axis]);

@@ -26,11 +26,11 @@ pub enum AdapterError {
     )]
     None,
     /// None of this name.
-    #[error("no graphics adapter matches {wanted}; there is: {found}")]
+    #[error("no graphics adapter matches {wanted}: {found}")]
     NoMatch {
         /// The name and backend that were asked for.
         wanted: String,
-        /// What was found.
+        /// What was found, and what to do about it.
         found: String,
     },
     /// Adapters, but none that is able.
@@ -89,6 +89,11 @@ impl Preference {
         }
     }
 
+    /// Whether the adapter has the name that is wanted.
+    pub fn allows(&self, info: &wgpu::AdapterInfo) -> bool {
+        self.name.as_ref().is_none_or(|name| info.name.to_lowercase().contains(&name.to_lowercase()))
+    }
+
     fn rank(&self, device_type: wgpu::DeviceType) -> u8 {
         let rank = match device_type {
             wgpu::DeviceType::DiscreteGpu => 0,
@@ -121,7 +126,7 @@ pub fn instance(backends: wgpu::Backends, display: Option<Box<dyn wgpu::wgt::Wgp
     wgpu::Instance::new(descriptor)
 }
 
-/// Every adapter of the machine that the preference does not exclude, best first.
+/// Every adapter of the machine that the preferred backends reach, of any name, best first.
 pub async fn enumerate(preference: &Preference) -> Vec<(wgpu::Instance, wgpu::Adapter)> {
     let mut found = Vec::new();
     for backends in preference.backend_sets() {
@@ -195,7 +200,7 @@ impl Gpu {
         adapters.sort_by_key(|adapter| preference.rank(adapter.get_info().device_type));
         for adapter in adapters {
             let info = adapter.get_info();
-            if preference.name.as_ref().is_some_and(|name| !info.name.to_lowercase().contains(&name.to_lowercase())) {
+            if !preference.allows(&info) {
                 others.push(describe(&info));
                 continue;
             }
@@ -245,11 +250,15 @@ impl Gpu {
     }
 }
 
-fn nothing(preference: &Preference, incapable: &[String], others: &[String]) -> AdapterError {
+/// Why nothing was chosen, of adapters that are incapable and others that have another name.
+pub fn nothing(preference: &Preference, incapable: &[String], others: &[String]) -> AdapterError {
     if !incapable.is_empty() {
         AdapterError::Incapable(incapable.join("; "))
     } else if preference.name.is_some() || preference.backend.is_some() {
-        let found = if others.is_empty() { "nothing".to_owned() } else { others.join("; ") };
+        let found = match others {
+            [] => "there is none at all by that way, try without it or install a driver".to_owned(),
+            _ => format!("choose another, of {}", others.join("; ")),
+        };
         AdapterError::NoMatch { wanted: preference.describe(), found }
     } else {
         AdapterError::None

@@ -5,7 +5,7 @@ use super::{Gpu, ShaderError};
 /// What one binding of a layout is.
 #[derive(Clone, Copy, Debug)]
 pub enum Binding {
-    /// A uniform buffer.
+    /// A uniform: see [`super::uniform`] for why it is a storage buffer.
     Uniform,
     /// One slot of a row of uniforms, chosen by a dynamic offset.
     UniformSlot,
@@ -73,10 +73,8 @@ fn binding_type(binding: Binding) -> wgpu::BindingType {
         multisampled: false,
     };
     match binding {
-        Binding::Uniform => buffer(wgpu::BufferBindingType::Uniform, false),
-        Binding::UniformSlot => buffer(wgpu::BufferBindingType::Uniform, true),
-        Binding::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
-        Binding::ReadSlot => buffer(wgpu::BufferBindingType::Storage { read_only: true }, true),
+        Binding::Uniform | Binding::Read => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
+        Binding::UniformSlot | Binding::ReadSlot => buffer(wgpu::BufferBindingType::Storage { read_only: true }, true),
         Binding::ReadWrite => buffer(wgpu::BufferBindingType::Storage { read_only: false }, false),
         Binding::Float(filterable) => texture(wgpu::TextureSampleType::Float { filterable }),
         Binding::Uint => texture(wgpu::TextureSampleType::Uint),

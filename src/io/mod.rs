@@ -8,6 +8,7 @@ pub mod output_dir;
 pub mod png_file;
 mod resample;
 pub mod scene_file;
+pub mod shader_folder;
 
 use std::io::Write as _;
 
@@ -20,6 +21,7 @@ pub fn print(text: &str) -> std::io::Result<()> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        result => result,
+        Err(error) => Err(std::io::Error::new(error.kind(), format!("cannot write to stdout: {error}"))),
+        Ok(()) => Ok(()),
     }
 }

@@ -80,7 +80,7 @@ impl LoadedScene {
 #[derive(Debug, thiserror::Error)]
 pub enum SceneFileError {
     /// No scene has this name.
-    #[error("{0}; a file's name must end in .toml")]
+    #[error("{0} (the name of a file ends in .toml)")]
     Unknown(String),
     /// The file cannot be read.
     #[error("cannot read the scene {}: {}", path.display(), height_image::explain(cause))]

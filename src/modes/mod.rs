@@ -1,16 +1,9 @@
 //! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
 
+pub mod adapters;
 pub mod capture;
-mod gui;
-pub mod hand;
-pub mod input;
 pub mod live;
-pub mod panel;
-pub mod pick;
 mod progress;
-pub mod readings;
-mod screen;
-pub mod session;
 pub mod stress;
 
 use crate::cli::CommonOptions;

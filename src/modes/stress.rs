@@ -62,6 +62,8 @@ pub struct StepsReport {
     pub p99: f64,
     /// The most.
     pub max: f64,
+    /// Pixels whose ray visited as many nodes as it may, and gave up.
+    pub capped: usize,
 }
 
 /// All that a stress run measures.
@@ -164,7 +166,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
 }
 
 /// Waits for the GPU and returns the time since the first call.
-fn milliseconds_when_idle(gpu: &Gpu) -> f64 {
+pub fn milliseconds_when_idle(gpu: &Gpu) -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     // A device that is lost says so at the end of the frame.
     let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
@@ -221,7 +223,9 @@ fn count_steps(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>
     let mut steps: Vec<f64> = channels.iter().filter(|pixel| pixel.steps >= 0.0).map(|pixel| f64::from(pixel.steps)).collect();
     steps.sort_by(f64::total_cmp);
     let Some(&max) = steps.last() else { return Ok(StepsReport::default()) };
-    Ok(StepsReport { mean: steps.iter().sum::<f64>() / steps.len() as f64, p99: quantile(&steps, 0.99), max })
+    let cap = f64::from(frame.scene().trace.step_cap);
+    let capped = steps.iter().filter(|steps| **steps >= cap).count();
+    Ok(StepsReport { mean: steps.iter().sum::<f64>() / steps.len() as f64, p99: quantile(&steps, 0.99), max, capped })
 }
 
 /// How many texels composition clamped.
@@ -266,7 +270,10 @@ fn table(report: &Report) -> String {
     row("all passes, GPU", report.frame.gpu_ms);
     row("submission to done", Some(report.frame.wall_ms));
     let steps = report.steps_per_pixel;
-    line(format_args!("\nsteps a pixel          {:.1} mean, {:.0} at 99 %, {:.0} at most", steps.mean, steps.p99, steps.max));
+    line(format_args!(
+        "\nsteps a pixel          {:.1} mean, {:.0} at 99 %, {:.0} at most, {} rays gave up",
+        steps.mean, steps.p99, steps.max, steps.capped
+    ));
     line(format_args!("bytes a frame          {:.1} MB by design, {:.2} GB/s", report.bytes_per_frame / 1e6, report.gb_per_s));
     line(format_args!("field                  {:.2} bytes a texel", report.field_bytes_per_texel));
     line(format_args!("GPU memory             {:.1} MB", report.gpu_memory_bytes as f64 / 1e6));

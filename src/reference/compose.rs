@@ -22,9 +22,7 @@ pub fn compose(relief: &[f32], wave: &[f32], amplitude: f32) -> (Vec<f32>, u32) 
 
 /// A value clamped to [0, 1], and whether it was out of range. −0 is in range and becomes 0.
 pub fn into_range(value: f32) -> (f32, bool) {
-    if value.is_nan() {
-        (0.0, true)
-    } else if value < 0.0 {
+    if value.is_nan() || value < 0.0 {
         (0.0, true)
     } else if value > 1.0 {
         (1.0, true)

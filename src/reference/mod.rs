@@ -84,17 +84,17 @@ pub fn address(texel: i64, size: u32, addressing: Addressing) -> usize {
 impl Ray {
     /// A view ray, from the reference surface down.
     pub fn view(lattice: [f32; 2], travel: [f32; 2]) -> Self {
-        Self { lattice, travel, height: 1.0, rise: -1.0 }
+        Self { lattice, travel, height: 1.0, rise: -1.0, cell: [0, 0] }
     }
 
     /// A shadow ray, from a point of the surface up.
     pub fn shadow(lattice: [f32; 2], travel: [f32; 2], height: f32) -> Self {
-        Self { lattice, travel, height, rise: 1.0 }
+        Self { lattice, travel, height, rise: 1.0, cell: [0, 0] }
     }
 
     /// Lattice position at t.
     pub fn lattice_at(&self, t: f64) -> [f64; 2] {
-        [0, 1].map(|axis| f64::from(self.lattice[axis]) + t * f64::from(self.travel[axis]))
+        [0, 1].map(|axis| f64::from(self.cell[axis]) + f64::from(self.lattice[axis]) + t * f64::from(self.travel[axis]))
     }
 
     /// Height at t.

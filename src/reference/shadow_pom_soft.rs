@@ -1,4 +1,4 @@
-//! Soft shadows after [POM] §3.2. Specification of `shaders/surface/shadow_pom_soft.wgsl`, which derives the formula.
+//! Soft shadows after \[POM\] §3.2. Specification of `shaders/surface/shadow_pom_soft.wgsl`, which derives the formula.
 
 use super::{HeightField, Ray};
 

@@ -1,6 +1,7 @@
 //! Stamps in f64, one after another over every texel: the specification of `shaders/field/stamp.wgsl`.
 
-use crate::field::stamp::{Blend, CRATER_LIP, CRATER_RIM, Profile, Stamp};
+use crate::field::base::hash_cell;
+use crate::field::stamp::{Blend, CRATER_GRAIN, CRATER_LIP, CRATER_RIM, Profile, Stamp};
 
 /// The layers that stamps are pressed into.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,11 +49,13 @@ impl Layers {
 
     fn press_texel(&mut self, index: usize, stamp: &Stamp, offset: [f64; 2]) {
         let rho = stretched(stamp, offset);
+        let texel = [(index % self.size[0]) as i32, (index / self.size[0]) as i32];
+        let profile = profile(stamp.profile, rho) + grain(stamp, texel, rho);
         let (height, level, alpha) = (f64::from(stamp.height), f64::from(stamp.level), f64::from(stamp.alpha));
-        let shape = level + height * profile(stamp.profile, rho);
+        let shape = level + height * profile;
         let layer = &mut self.relief[index];
         *layer = match stamp.blend {
-            Blend::Add => *layer + height * profile(stamp.profile, rho),
+            Blend::Add => *layer + height * profile,
             Blend::Min => layer.min(shape),
             Blend::Max => layer.max(shape),
             Blend::Replace => *layer + (shape - *layer) * alpha,
@@ -61,10 +64,11 @@ impl Layers {
         let s = rho * rho;
         let rim = CRATER_RIM * CRATER_RIM;
         let bared = f64::from(stamp.bare) * (1.0 - smoothstep(0.5 * rim, rim, s));
-        let sooted = (f64::from(stamp.soot) * (1.0 - s).max(0.0).powi(2)).clamp(0.0, 1.0);
+        let outward = (s / rim).min(1.0);
+        let sooted = f64::from(stamp.soot) * (1.0 - s).max(0.0).powi(2) * (0.25 + 0.75 * outward * outward);
         let [soot, bare] = &mut self.material[index];
         *soot *= 1.0 - bared;
-        *soot += (1.0 - *soot) * sooted;
+        *soot += (1.0 - *soot) * sooted.clamp(0.0, 1.0);
         *bare += (1.0 - *bare) * bared;
     }
 }
@@ -94,13 +98,23 @@ pub fn profile(profile: Profile, rho: f64) -> f64 {
             let (s, rim) = (rho * rho, CRATER_RIM * CRATER_RIM);
             if s < rim {
                 let x = s / rim;
-                (1.0 + CRATER_LIP) * x * x * (3.0 - 2.0 * x) - 1.0
+                let (bowl, bore) = (x * x * (3.0 - 2.0 * x), 1.0 - (1.0 - x).powi(6));
+                (1.0 + CRATER_LIP) * (bowl + bore) / 2.0 - 1.0
             } else {
                 let y = (s - rim) / (1.0 - rim);
                 CRATER_LIP * (1.0 - y).powi(4) * (1.0 + 4.0 * y)
             }
         }
     }
+}
+
+/// What the grains of the broken material add in an irregular crater: nothing from the rim on.
+fn grain(stamp: &Stamp, texel: [i32; 2], rho: f64) -> f64 {
+    if stamp.profile != Profile::Crater {
+        return 0.0;
+    }
+    let inward = (3.0 * (1.0 - rho * rho / (CRATER_RIM * CRATER_RIM))).clamp(0.0, 1.0);
+    f64::from(stamp.irregularity) * CRATER_GRAIN * (2.0 * hash_cell(texel, 0) - 1.0) * inward
 }
 
 fn smoothstep(low: f64, high: f64, value: f64) -> f64 {

@@ -1,11 +1,11 @@
-//! Parallax occlusion mapping: a linear search, then the ray against the last linear segment of the profile ([POM] §3.1).
+//! Parallax occlusion mapping: a linear search, then the ray against the last linear segment of the profile (\[POM\] §3.1).
 //! Specification of `shaders/surface/trace_pom.wgsl`.
 
 use super::{HeightField, Hit, Ray};
 
 /// The number of samples, a real number: `range[1]` seen edge-on, `range[0]` seen head-on.
 ///
-/// [POM] eq. 1 prints it the other way round; its text and [Zink]'s interpolation mean this.
+/// \[POM\] eq. 1 prints it the other way round; its text and \[Zink\]'s interpolation mean this.
 pub fn samples(travel_metres: [f64; 2], depth_metres: f64, range: [f64; 2]) -> f64 {
     let cosine = depth_metres / (travel_metres[0].powi(2) + travel_metres[1].powi(2) + depth_metres.powi(2)).sqrt();
     (range[1] + (range[0] - range[1]) * cosine.clamp(0.0, 1.0)).max(1.0)

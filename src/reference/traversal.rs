@@ -21,12 +21,7 @@ pub struct Line {
 
 impl From<&Ray> for Line {
     fn from(ray: &Ray) -> Self {
-        Self {
-            lattice: ray.lattice.map(f64::from),
-            travel: ray.travel.map(f64::from),
-            height: ray.height.into(),
-            rise: ray.rise.into(),
-        }
+        Self { lattice: ray.lattice_at(0.0), travel: ray.travel.map(f64::from), height: ray.height.into(), rise: ray.rise.into() }
     }
 }
 

@@ -45,7 +45,7 @@ choices! {
     Technique {
         /// Blinn's bump mapping: the surface stays where the polygon is, only its normal changes.
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
-        /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment ([POM] §3.1).
+        /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
@@ -57,7 +57,7 @@ choices! {
     Shadow {
         /// Nothing blocks the light.
         None = "none", "shadow_none", "None";
-        /// Weighted samples along the light ray ([POM] §3.2).
+        /// Weighted samples along the light ray (\[POM\] §3.2).
         PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
         /// Any hit of the exact traversal.
         Hard = "hard", "shadow_hard", "Hard (exact)";

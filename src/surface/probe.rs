@@ -10,7 +10,7 @@ use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Ray {
-    /// Lattice position at t = 0.
+    /// Lattice position at t = 0, counted from `cell`.
     pub lattice: [f32; 2],
     /// Lattice displacement while t grows by 1.
     pub travel: [f32; 2],
@@ -18,6 +18,8 @@ pub struct Ray {
     pub height: f32,
     /// −1: a view ray, which falls; +1: a shadow ray, which climbs.
     pub rise: f32,
+    /// A lattice position near the start: what is counted from it keeps the bits that its own size would cost.
+    pub cell: [i32; 2],
 }
 
 /// What became of a ray. Twin of the WGSL struct in `shaders/surface/ray.wgsl`.

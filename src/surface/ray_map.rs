@@ -82,12 +82,14 @@ pub fn pixel_ray(camera: &Camera, image_size: [u32; 2], target: &Target, pixel: 
     let forms = exact_forms(camera, image_size, target);
     let pixel = DVec3::new(pixel[0], pixel[1], 1.0);
     let denominator = forms.denominator.dot(pixel);
-    let at = |form: DVec3| (form.dot(pixel) / denominator) as f32;
+    let at = |form: DVec3| form.dot(pixel) / denominator;
+    let lattice = forms.lattice.map(at);
     (denominator > 0.0 && camera.eye().y > 0.0).then(|| Ray {
-        lattice: forms.lattice.map(at),
-        travel: forms.travel.map(at),
+        lattice: lattice.map(|lattice| (lattice - lattice.floor()) as f32),
+        travel: forms.travel.map(|travel| at(travel) as f32),
         height: 1.0,
         rise: -1.0,
+        cell: lattice.map(|lattice| lattice.floor() as i32),
     })
 }
 

@@ -79,7 +79,7 @@ fn of_interest(n: u32) -> bool {
         || near(n.next_power_of_two())
         || near(n.next_power_of_two() / 2)
         || near(n.next_power_of_two() / 4 * 3)
-        || n % 97 == 0
+        || n.is_multiple_of(97)
 }
 
 #[test]

@@ -5,9 +5,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use egui::accesskit::Role;
-use rilievo::modes::input::Action;
-use rilievo::modes::panel::{BrushKind, Panel, set_style};
-use rilievo::modes::readings::Readings;
+use rilievo::modes::live::hand::BrushKind;
+use rilievo::modes::live::input::Action;
+use rilievo::modes::live::panel::{Panel, set_style};
+use rilievo::modes::live::readings::Readings;
 use rilievo::scene::{Boundary, Rain, Scene, Shots, Wave};
 use rilievo::surface::{Shadow, Technique};
 
@@ -73,8 +74,13 @@ fn every_slider_moves_its_value_and_its_reset_brings_it_back() {
             let (Some(least), Some(most), Some(value)) = (least, most, node.numeric_value()) else {
                 panic!("{name} has no range or no value");
             };
-            slider.set_value_accesskit(if value > 0.5 * (least + most) { least } else { most });
-            harness.run();
+            let ends = if value > 0.5 * (least + most) { [most, least] } else { [least, most] };
+            for end in ends {
+                harness.get_by_role_and_label(Role::Slider, &name).set_value_accesskit(end);
+                harness.run();
+                let valid = harness.state().panel.scene.validate();
+                assert!(valid.is_ok(), "{name} at {end}: {valid:?}");
+            }
             assert_ne!(harness.state().panel, before, "{name} changes nothing");
             harness.get_by_role_and_label(Role::Button, &format!("Reset {name}")).click();
             harness.run();

@@ -38,7 +38,7 @@ impl Kind {
             }),
             Self::Steps => HeightField::from_fn(size, addressing, |x, y| hash_height(x / 7, y / 5, 4)),
             Self::Constant => HeightField::from_fn(size, addressing, |_, _| 0.625),
-            Self::Elevation => HeightField::from_fn(size, addressing, |x, y| elevation(x, y)),
+            Self::Elevation => HeightField::from_fn(size, addressing, elevation),
             Self::Waves => HeightField::from_fn(size, addressing, |x, y| waves(x, y, size)),
         }
     }

@@ -7,28 +7,24 @@ use rilievo::gpu::{Gpu, Preference, Readback, Recorder, Role, Texture, Timer};
 /// The device that tests share. Without an adapter a test fails in CI (where `CI` is set), and elsewhere says loudly that it skips.
 pub fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
-    GPU.get_or_init(|| {
-        let preference = Preference { software_first: true, ..Preference::default() }.with_environment();
-        match pollster::block_on(Gpu::new(&preference)) {
-            Ok(gpu) => Some(gpu),
-            Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
-            Err(error) => {
-                eprintln!("SKIPPED, nothing on the GPU is tested: {error}");
-                None
-            }
+    GPU.get_or_init(own_gpu).as_ref()
+}
+
+/// A device for one test alone, whose clock does not run for what others submit.
+pub fn own_gpu() -> Option<Gpu> {
+    let preference = Preference { software_first: true, ..Preference::default() }.with_environment();
+    match pollster::block_on(Gpu::new(&preference)) {
+        Ok(gpu) => Some(gpu),
+        Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
+        Err(error) => {
+            eprintln!("SKIPPED, nothing on the GPU is tested: {error}");
+            None
         }
-    })
-    .as_ref()
+    }
 }
 
 /// Records, submits and waits.
 pub fn run<T>(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>) -> T) -> T {
-    let (result, _) = run_timed(gpu, record);
-    result
-}
-
-/// Records, submits and waits; also the milliseconds of each pass, where the adapter has timestamps.
-pub fn run_timed<T>(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>) -> T) -> (T, Vec<rilievo::gpu::PassTime>) {
     let mut timer = Timer::new(gpu);
     let mut encoder = gpu.encoder("test");
     let result = record(&mut Recorder { gpu, encoder: &mut encoder, timer: &timer });
@@ -36,7 +32,7 @@ pub fn run_timed<T>(gpu: &Gpu, record: impl FnOnce(&mut Recorder<'_>) -> T) -> (
     gpu.queue.submit([encoder.finish()]);
     timer.end_frame();
     wait(gpu);
-    (result, timer.finished_frame().unwrap_or_default())
+    result
 }
 
 /// The texels of a texture, row by row.

@@ -56,6 +56,9 @@ pub fn lattice_bound(largest: f64) -> f64 {
     LATTICE_FLOOR.max(8.0 * 2f64.powi(-24) * largest)
 }
 
+/// Depth of a flat field, metres: a few roundings of heights near ½ times a depth of 0.1, and the filter's 8 bits cannot matter.
+pub const FLAT_FIELD: f64 = 1e-7;
+
 /// Height by which the exact traversal may pass through the surface, or stop above it, where a ray grazes it: the rounding of
 /// the bilinear in f32 and its slack, some 1e-6, and what the surface rises over the misplacement of the ray.
 pub fn hit_height(cells: f64, slope: f64) -> f64 {
@@ -70,6 +73,24 @@ pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 
 /// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
 pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
+
+/// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
+/// two or three.
+pub const GOLDEN_LEVELS: u8 = 3;
+
+/// Share of a golden's values that may differ by more: where a ray grazes or a shadow begins, one rounding decides a whole pixel.
+/// Some 24 pixels; turning the light of `bullet-wall` by one degree changes 0.0015.
+pub const GOLDEN_OUTLIERS: f64 = 0.001;
+
+/// Heights by which a picture's height may differ between the hardware's bilinear filter, with its 8 bits of fraction, and four
+/// loads: a 256th of the difference between two texels, and what that does to where a ray of `pom` meets the surface.
+pub const FILTERED_HEIGHT: f64 = 0.02;
+
+/// The surface pass of `exact` in times of that of `normal`: the project's budget on a software adapter.
+pub const EXACT_BUDGET: f64 = 4.0;
+
+/// From the start of the program to its first picture: the project's budget on a software adapter.
+pub const FIRST_PICTURE: std::time::Duration = std::time::Duration::from_secs(2);
 
 /// The ray's parameter at a hit of `pom` against the f64 reference: the filter's precision over the angle between ray and
 /// surface, which on the smooth fields of that test is seldom under a tenth.
@@ -91,7 +112,8 @@ pub const SOFT_OFF_SHARE: f64 = 2e-3;
 /// Mean difference that samples above the stated count make: a quarter of a step of an 8-bit picture.
 pub const SOFT_CONVERGED: f64 = 1e-3;
 
-/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: a tenth of that is what the fall itself makes.
+/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: less than half of it is the
+/// fall itself.
 pub const SOFT_STEP: f64 = 1.0 / 64.0;
 
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.

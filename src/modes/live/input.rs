@@ -31,6 +31,8 @@ pub enum Action {
     ToggleFullscreen,
     /// Save a picture.
     Picture,
+    /// Build the shaders anew from their folder.
+    ReloadShaders,
     /// Change between orbit and flight.
     ToggleFly,
     /// Back to the scene's own camera.
@@ -79,6 +81,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
         Action::TogglePanel,
     ),
     shortcut("P", "save a picture here (PNG)", &[Trigger::Character("p")], Action::Picture),
+    shortcut("F5", "reload the shaders from ./shaders", &[Trigger::Named(NamedKey::F5)], Action::ReloadShaders),
     shortcut("F11", "fill the screen", &[Trigger::Named(NamedKey::F11)], Action::ToggleFullscreen),
     shortcut("F1 or ?", "show these keys", &[Trigger::Named(NamedKey::F1), Trigger::Character("?")], Action::ToggleKeys),
     shortcut("Esc", "hide them", &[Trigger::Named(NamedKey::Escape)], Action::HideKeys),
@@ -218,9 +221,9 @@ impl Pointer {
         }
     }
 
-    /// The window lost it.
-    pub fn lost(&mut self) {
-        *self = Self::default();
+    /// The window lost the focus, and with it the release of a button: lets go. Where the mouse is does not change.
+    pub fn let_go(&mut self) {
+        self.grip = None;
     }
 }
 
@@ -282,7 +285,7 @@ mod tests {
         assert_eq!(action(&character("1"), false), Some(Action::Scene(0)));
         assert_eq!(action(&character("9"), false), Some(Action::Scene(8)));
         assert_eq!(action(&character("0"), false), None);
-        for key in [NamedKey::F12, NamedKey::PrintScreen, NamedKey::F5] {
+        for key in [NamedKey::F12, NamedKey::PrintScreen] {
             assert_eq!(action(&Key::Named(key), false), None);
         }
     }
@@ -323,8 +326,8 @@ mod tests {
         assert_eq!(pointer.press(MouseButton::Right, false, false), Some(Grip::Turn));
         pointer.left();
         assert_eq!(pointer.moved(DVec2::new(510.0, 0.0)), Some((Grip::Turn, DVec2::new(10.0, -5.0))));
-        pointer.lost();
-        assert_eq!((pointer.position(), pointer.grip()), (None, None));
+        pointer.let_go();
+        assert_eq!((pointer.position(), pointer.grip()), (Some(DVec2::new(510.0, 0.0)), None));
         assert_eq!(pointer.press(MouseButton::Right, false, true), Some(Grip::Pan));
     }
 

@@ -1,9 +1,58 @@
 //! The hand: what the brush does where it meets the surface.
 
-use super::panel::{Brush, BrushKind};
 use crate::field::wave::Impulse;
 use crate::scene::{Addressing, Scene, Shots};
 use crate::stroke::{self, Lattice, Random, Stream, Stroke};
+
+/// What the left mouse button does to the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrushKind {
+    /// A drop upon the water.
+    Drop,
+    /// A shot: a crater and its scorch.
+    Shot,
+}
+
+impl BrushKind {
+    /// Every kind.
+    pub const ALL: &'static [Self] = &[Self::Drop, Self::Shot];
+
+    /// What the panel calls it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Drop => "Drop on water",
+            Self::Shot => "Shot into the wall",
+        }
+    }
+}
+
+/// The left mouse button.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Brush {
+    /// What it does.
+    pub kind: BrushKind,
+    /// How large, metres.
+    pub radius_metres: f32,
+    /// How often while it is held, 1/s.
+    pub per_second: f32,
+}
+
+impl Brush {
+    /// Smallest and largest radius, metres.
+    pub const RADIUS_METRES: [f32; 2] = [0.002, 0.3];
+
+    /// What suits a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let kind = if scene.wave.is_some() { BrushKind::Drop } else { BrushKind::Shot };
+        Self { kind, radius_metres: 0.03 * scene.plane.width_metres, per_second: 12.0 }
+    }
+
+    /// Grows it by `notches` of the wheel, a tenth each.
+    pub fn grow(&mut self, notches: f32) {
+        let [least, most] = Self::RADIUS_METRES;
+        self.radius_metres = (self.radius_metres * 1.1_f32.powf(notches)).clamp(least, most);
+    }
+}
 
 /// The stroke of a brush at a lattice position of the surface, the `number`th of the hand; none beyond the border of a field that
 /// does not repeat, or upon water where there is none.

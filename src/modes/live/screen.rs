@@ -6,8 +6,8 @@ use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
 use winit::window::Window;
 
-use super::ModeError;
 use crate::gpu::{AdapterError, Gpu, Preference, adapter};
+use crate::modes::ModeError;
 
 /// What became of a request for the next picture of the window.
 pub enum Acquired {

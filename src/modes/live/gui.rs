@@ -39,7 +39,7 @@ impl Gui {
             renderer,
             jobs: Vec::new(),
             pixels_per_point: scale,
-            uncovered: egui::Rect::EVERYTHING,
+            uncovered: egui::Rect::NOTHING,
             free: Vec::new(),
         }
     }
@@ -68,7 +68,7 @@ impl Gui {
     /// Lays the panel out. Returns after what time egui wants to be drawn again without an event.
     pub fn run(&mut self, gpu: &Gpu, mut show: impl FnMut(&mut egui::Ui)) -> Duration {
         let input = self.state.take_egui_input(&self.window);
-        let mut uncovered = egui::Rect::EVERYTHING;
+        let mut uncovered = egui::Rect::NOTHING;
         let mut output = self.context.run_ui(input, |ui| {
             show(ui);
             uncovered = ui.available_rect_before_wrap();
@@ -87,10 +87,11 @@ impl Gui {
         output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |viewport| viewport.repaint_delay)
     }
 
-    /// How wide the panel at the left is, pixels.
+    /// How wide the panel at the left is, pixels; nothing where it leaves too little free to centre a picture in.
     pub fn covered_pixels(&self) -> f64 {
-        let points = f64::from(self.uncovered.left().max(0.0));
-        if points.is_finite() { points * f64::from(self.pixels_per_point) } else { 0.0 }
+        let covered = self.uncovered.left();
+        let worth_it = covered.is_finite() && covered < self.uncovered.width();
+        if worth_it { f64::from(covered.max(0.0) * self.pixels_per_point) } else { 0.0 }
     }
 
     /// Records the picture of the last [`Gui::run`], over what `target` of `size` pixels holds.

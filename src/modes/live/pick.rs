@@ -1,5 +1,6 @@
 //! Picking: which point of the displaced surface a pixel shows. By the very function that drew it ([`Probe`]).
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, VecDeque};
 
 use glam::DVec2;
@@ -48,11 +49,12 @@ impl Picker {
             return Ok(());
         }
         let technique = scene.trace.technique;
-        if !self.probes.contains_key(&technique) {
-            self.probes.insert(technique, Probe::new(gpu, technique, Shadow::None)?);
-        }
+        let probe = match self.probes.entry(technique) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(Probe::new(gpu, technique, Shadow::None)?),
+        };
         let view = View::new(scene, camera, time_seconds, image_size, Shows::Picture);
-        self.pending.push_back(self.probes[&technique].trace(gpu, &frame.field, &view, &rays));
+        self.pending.push_back(probe.trace(gpu, &frame.field, &view, &rays));
         Ok(())
     }
 

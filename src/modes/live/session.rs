@@ -1,29 +1,31 @@
 //! What a window shows, apart from the window: the scene and its frame, the clock, the camera, the hand.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::capture::Picture;
+use super::hand;
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
 use super::readings::Readings;
-use super::{ModeError, hand};
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
 use crate::field::{self, base};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
-use crate::io::png_file;
+use crate::io::{png_file, shader_folder};
+use crate::modes::ModeError;
+use crate::modes::capture::Picture;
 use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
 
 /// Time from frame to frame where it is fixed, and of a single step, seconds.
 pub const DT_SECONDS: f64 = 1.0 / 60.0;
 
-/// The longest that one frame may span in real time, seconds: after a pause of the whole program the scene goes on where it was.
-const LONGEST_FRAME_SECONDS: f64 = 0.25;
+/// The longest that one frame may span in real time, seconds. Where frames take longer the scene runs in slow motion, instead of
+/// owing so many steps that the next frame takes longer still; and after a rest it goes on where it was.
+const LONGEST_FRAME_SECONDS: f64 = 0.05;
 
 /// How a session's time passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +51,7 @@ pub struct Session {
     pub pointer: Pointer,
     /// The keys of flight.
     pub flight: FlightKeys,
-    pub(super) rig: Rig,
+    rig: Rig,
     start: Start,
     load: Option<Load>,
     pacing: Pacing,
@@ -134,13 +136,32 @@ impl Session {
     }
 
     /// Saves what the window shows, without the panel, as a PNG in the working directory, and says where.
-    pub fn save_picture(&mut self) {
+    fn save_picture(&mut self) {
         let path = unused_file(&self.panel.scene.name);
         let saved = self.picture().and_then(|pixels| Ok(png_file::write(&path, self.frame.image_size(), &pixels)?));
-        self.panel.say(match saved {
-            Ok(()) => format!("Saved {}", path.display()),
-            Err(error) => format!("No picture: {error}"),
-        });
+        match saved {
+            Ok(()) => self.panel.say(format!("Saved {}", path.display())),
+            Err(error) => self.panel.say_error(&format!("No picture: {error}")),
+        }
+    }
+
+    /// Builds every pass anew from the shaders in the working directory. What fails leaves everything as it was.
+    fn reload_shaders(&mut self) {
+        let library = match shader_folder::read(Path::new(shader_folder::FOLDER)) {
+            Ok(library) => library,
+            Err(error) => return self.panel.say_error(&error.to_string()),
+        };
+        let before = std::mem::replace(&mut self.gpu.shaders, library);
+        match self.frame.reload(&self.gpu) {
+            Ok(()) => {
+                self.picker = Picker::default();
+                self.panel.say("Shaders reloaded");
+            }
+            Err(error) => {
+                self.gpu.shaders = before;
+                self.panel.say_error(&error.to_string());
+            }
+        }
     }
 
     fn picture(&self) -> Result<Vec<u8>, ModeError> {
@@ -180,7 +201,10 @@ impl Session {
                 self.panel.say(if self.rig.flies() { "Fly: W A S D, Q E; wheel for speed" } else { "Orbit" });
             }
             Action::ResetCamera => self.rig.reset(),
-            Action::ToggleFullscreen | Action::Picture => {}
+            Action::Picture => self.save_picture(),
+            Action::ReloadShaders => self.reload_shaders(),
+            // The window's own.
+            Action::ToggleFullscreen => {}
         }
         self.panel.flies = self.rig.flies();
     }
@@ -227,7 +251,7 @@ impl Session {
                 let description = self.panel.scene.description.clone();
                 self.panel.say(description);
             }
-            Err(error) => self.panel.say(error.to_string()),
+            Err(error) => self.panel.say_error(&error.to_string()),
         }
     }
 
@@ -271,13 +295,15 @@ impl Session {
         if self.panel.scene == *self.frame.scene() {
             return;
         }
-        match self.frame.set_scene(&self.gpu, &self.panel.scene) {
+        // Each control keeps to its range, but what is stable depends on several at once.
+        let valid = self.panel.scene.validate().map_err(|error| error.to_string());
+        match valid.and_then(|()| self.frame.set_scene(&self.gpu, &self.panel.scene).map_err(|error| error.to_string())) {
             Ok(()) => {
                 self.clock.set_step(self.frame.step_seconds());
                 self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
             }
             Err(error) => {
-                self.panel.say(error.to_string());
+                self.panel.say_error(&error);
                 self.panel.scene = self.frame.scene().clone();
             }
         }
@@ -310,14 +336,17 @@ impl Session {
         self.frame.record(&self.gpu, encoder, &input, target)
     }
 
-    /// Submits what [`Session::record`] and others recorded, and notes what the frame cost.
-    pub fn finish(&mut self, encoder: wgpu::CommandEncoder, elapsed_seconds: f64) {
+    /// Submits what [`Session::record`] and others recorded, and notes what the frame cost: by the wall clock `frame_seconds`, where
+    /// it followed the one before at once.
+    pub fn finish(&mut self, encoder: wgpu::CommandEncoder, frame_seconds: Option<f64>) {
         self.frame.finish(&self.gpu, encoder);
         while let Some(times) = self.frame.timer.finished_frame() {
             self.readings.note_passes(&times);
         }
         self.note_clipped();
-        self.readings.note_frame(elapsed_seconds);
+        if let Some(seconds) = frame_seconds {
+            self.readings.note_frame(seconds);
+        }
         self.readings.time_seconds = self.tick.time_seconds;
         self.readings.steps = self.tick.steps;
         self.readings.image_size = self.frame.image_size();

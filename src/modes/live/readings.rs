@@ -68,6 +68,7 @@ impl Readings {
                 None => sums.push((name, milliseconds)),
             }
         }
+        let order: Vec<&str> = sums.iter().map(|&(name, _)| name).collect();
         for pass in &mut self.passes {
             let sum = sums.iter().position(|(name, _)| *name == pass.name).map_or(0.0, |index| sums.remove(index).1);
             pass.milliseconds += SMOOTHING * (sum - pass.milliseconds);
@@ -77,7 +78,11 @@ impl Readings {
             }
         }
         for (name, milliseconds) in sums {
-            self.passes.push(Pass { name: name.to_owned(), milliseconds, history: VecDeque::from([milliseconds]) });
+            // Where it stands in the frame: before the first known pass that runs after it.
+            let later = order.iter().skip_while(|&&other| other != name);
+            let place = later.filter_map(|&other| self.passes.iter().position(|pass| pass.name == other)).next();
+            let pass = Pass { name: name.to_owned(), milliseconds, history: VecDeque::from([milliseconds]) };
+            self.passes.insert(place.unwrap_or(self.passes.len()), pass);
         }
     }
 
@@ -196,10 +201,12 @@ mod tests {
     fn adds_up_a_pass_that_ran_twice_and_counts_one_that_did_not_run_as_zero() {
         let mut readings = Readings::default();
         readings.note_passes(&[time("wave", 1.0), time("wave", 2.0), time("surface", 5.0)]);
-        readings.note_passes(&[time("surface", 5.0), time("stamp", 1.0)]);
+        readings.note_passes(&[time("stamp", 1.0), time("surface", 5.0), time("present", 0.5)]);
         let histories: Vec<(&str, Vec<f64>)> =
             readings.passes.iter().map(|pass| (pass.name.as_str(), pass.history.iter().copied().collect())).collect();
-        assert_eq!(histories, [("wave", vec![3.0, 0.0]), ("surface", vec![5.0, 5.0]), ("stamp", vec![1.0])]);
+        // In the order of the frame, whenever each was first seen.
+        let expected = [("wave", vec![3.0, 0.0]), ("stamp", vec![1.0]), ("surface", vec![5.0, 5.0]), ("present", vec![0.5])];
+        assert_eq!(histories, expected);
         assert!(readings.passes[0].milliseconds < 3.0);
     }
 

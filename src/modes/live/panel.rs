@@ -10,6 +10,7 @@ use egui::{Align, Align2, Color32, Layout, RichText, Ui, vec2};
 
 pub use self::widgets::PANEL_WIDTH;
 use self::widgets::{Control, choice, colour, group, value};
+use super::hand::{Brush, BrushKind};
 use super::input::{Action, GESTURES, SHORTCUTS};
 use super::readings::{self, Readings};
 use crate::scene::{Boundary, Rain, Scene};
@@ -18,53 +19,8 @@ use crate::surface::{Albedo, Shadow, Shows, Technique};
 /// What the scroll bar takes of the panel, points.
 const SCROLL_BAR_WIDTH: f32 = 8.0;
 
-/// What the left mouse button does to the surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BrushKind {
-    /// A drop upon the water.
-    Drop,
-    /// A shot: a crater and its scorch.
-    Shot,
-}
-
-impl BrushKind {
-    const ALL: &'static [Self] = &[Self::Drop, Self::Shot];
-
-    fn label(self) -> &'static str {
-        match self {
-            Self::Drop => "Drop on water",
-            Self::Shot => "Shot into the wall",
-        }
-    }
-}
-
-/// The left mouse button.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Brush {
-    /// What it does.
-    pub kind: BrushKind,
-    /// How large, metres.
-    pub radius_metres: f32,
-    /// How often while it is held, 1/s.
-    pub per_second: f32,
-}
-
-impl Brush {
-    /// Smallest and largest radius, metres.
-    pub const RADIUS_METRES: [f32; 2] = [0.002, 0.3];
-
-    /// What suits a scene.
-    pub fn of(scene: &Scene) -> Self {
-        let kind = if scene.wave.is_some() { BrushKind::Drop } else { BrushKind::Shot };
-        Self { kind, radius_metres: 0.03 * scene.plane.width_metres, per_second: 12.0 }
-    }
-
-    /// Grows it by `notches` of the wheel, a tenth each.
-    pub fn grow(&mut self, notches: f32) {
-        let [least, most] = Self::RADIUS_METRES;
-        self.radius_metres = (self.radius_metres * 1.1_f32.powf(notches)).clamp(least, most);
-    }
-}
+/// How wide a message may be, points.
+const MESSAGE_WIDTH: f32 = 520.0;
 
 /// What the panel shows and changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +76,12 @@ impl Panel {
         self.message = Some((message.into(), 4.0));
     }
 
+    /// Says what went wrong, long enough to be read; all of it on stderr, where it stays, and its first line here.
+    pub fn say_error(&mut self, error: &str) {
+        log::error!("{error}");
+        self.message = Some((error.lines().next().unwrap_or_default().to_owned(), 15.0));
+    }
+
     /// When to draw it anew without an event, if egui itself would wait for `delay`.
     pub fn stir(&self, delay: Duration) -> Duration {
         self.message.as_ref().map_or(delay, |&(_, left)| delay.min(Duration::from_secs_f64(left.max(0.0))))
@@ -164,7 +126,7 @@ impl Panel {
                 ui.label(RichText::new(format!("{:.0} fps", readings.frames_per_second())).monospace())
                     .on_hover_text("Frames shown a second, by the wall clock");
                 ui.label(RichText::new(format!("{:.2} s", readings.time_seconds)).monospace().weak())
-                    .on_hover_text("Time that passed in the scene");
+                    .on_hover_text("Time that passed in the scene; in slow motion below 20 frames a second");
             });
         });
         ui.horizontal(|ui| {
@@ -235,7 +197,7 @@ impl Panel {
             const TECHNIQUE: &str = "How the ray of a pixel finds the surface (T)";
             choice(ui, "Technique", TECHNIQUE, &mut trace.technique, was.technique, Technique::ALL, Technique::label);
             choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
-            let depth = Control::new("Depth", " mm", 0.0, 500.0).scale(1e3).decimals(1);
+            let depth = Control::new("Depth", " mm", 1.0, 500.0).scale(1e3).decimals(1);
             value(ui, &depth.tip("How far height 0 lies below the plane"), &mut plane.depth_metres, plane_was.depth_metres);
             if trace.technique == Technique::Pom {
                 let tip = "Samples along a ray that meets the surface head-on ([POM] eq. 1)";
@@ -421,9 +383,11 @@ impl Panel {
 
     fn messages(&self, ctx: &egui::Context) {
         let Some((message, _)) = &self.message else { return };
-        let area =
-            egui::Area::new(egui::Id::unique("message")).anchor(Align2::RIGHT_BOTTOM, vec2(-12.0, -12.0)).interactable(false);
+        let area = egui::Area::new(egui::Id::unique(("message", message)))
+            .anchor(Align2::RIGHT_BOTTOM, vec2(-12.0, -12.0))
+            .interactable(false);
         area.show(ctx, |ui| {
+            ui.set_max_width(MESSAGE_WIDTH);
             egui::Frame::popup(ui.style()).show(ui, |ui| ui.label(message));
         });
     }

@@ -1,6 +1,15 @@
 //! Live: a window. The clock is the wall's, the picture goes to the screen.
 //!
-//! Here are the window, its events and its frames; what they mean is in [`super::input`], what they change in [`super::session`].
+//! Here are the window, its events and its frames; what they mean is in [`input`], what they change in [`session`].
+
+mod gui;
+pub mod hand;
+pub mod input;
+pub mod panel;
+pub mod pick;
+pub mod readings;
+mod screen;
+pub mod session;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,11 +24,11 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{ModifiersState, PhysicalKey};
 use winit::window::{Fullscreen, Window, WindowAttributes, WindowId};
 
-use super::gui::Gui;
-use super::input::{self, Action, Grip};
-use super::panel::{self, PANEL_WIDTH};
-use super::screen::{Acquired, Screen};
-use super::session::{DT_SECONDS, Pacing, Session};
+use self::gui::Gui;
+use self::input::{Action, Grip};
+use self::panel::PANEL_WIDTH;
+use self::screen::{Acquired, Screen};
+use self::session::{DT_SECONDS, Pacing, Session};
 use super::{ModeError, capture, start};
 use crate::cli::LiveOptions;
 use crate::frame::{FrameInput, check_limits};
@@ -90,6 +99,8 @@ struct Open {
     last_frame: Instant,
     /// When the next frame is due without an event; none: there is nothing new to show.
     due: Option<Instant>,
+    /// Whether the last frame was to be followed by another at once.
+    continuous: bool,
     visible: bool,
     title: String,
 }
@@ -166,6 +177,7 @@ impl Open {
             modifiers: ModifiersState::empty(),
             last_frame: now,
             due: Some(now),
+            continuous: false,
             visible: true,
             title: String::new(),
         })
@@ -193,7 +205,7 @@ impl Open {
             WindowEvent::Occluded(occluded) => self.visible = !occluded,
             WindowEvent::Focused(false) => {
                 self.session.flight.release();
-                self.session.pointer.lost();
+                self.session.pointer.let_go();
                 self.modifiers = ModifiersState::empty();
             }
             _ => {}
@@ -221,9 +233,6 @@ impl Open {
         if action == Action::ToggleFullscreen {
             let fullscreen = self.window.fullscreen().is_none().then_some(Fullscreen::Borderless(None));
             self.window.set_fullscreen(fullscreen);
-        }
-        if action == Action::Picture {
-            self.session.save_picture();
         }
         self.session.act(action);
     }
@@ -296,7 +305,7 @@ impl Open {
         if let Some(target) = &target {
             self.gui.record(&session.gpu, &mut encoder, size, target);
         }
-        session.finish(encoder, elapsed_seconds);
+        session.finish(encoder, self.continuous.then_some(elapsed_seconds));
         if let Some(texture) = texture {
             self.window.pre_present_notify();
             session.gpu.queue.present(texture);
@@ -308,8 +317,8 @@ impl Open {
             self.window.set_title(&title);
             self.title = title;
         }
-        let moves = session.moves() && (self.visible || scripted);
-        self.due = if moves { Some(now) } else { now.checked_add(self.session.panel.stir(delay)) };
+        self.continuous = session.moves() && (self.visible || scripted);
+        self.due = if self.continuous { Some(now) } else { now.checked_add(session.panel.stir(delay)) };
         self.check().map(|()| true)
     }
 
@@ -328,7 +337,7 @@ fn scenes(started_with: &str, loaded: &LoadedScene) -> Vec<(String, String)> {
 }
 
 /// What makes the start of another scene. Of the command line, what suits every scene goes for it too: the field's size.
-fn scene_loader(options: &LiveOptions) -> super::session::Load {
+fn scene_loader(options: &LiveOptions) -> session::Load {
     let overrides = SceneOverrides { field: options.common.overrides().field, ..SceneOverrides::default() };
     let framed_size = framed_size(options);
     Box::new(move |name| scene_file::load(name, &overrides, framed_size).map(|loaded| start(&loaded)).map_err(ModeError::from))

@@ -1,0 +1,4 @@
+//! Files in and out: height images of every kind, whole, odd, damaged and hostile; scenes; what a script is promised to find.
+
+mod height_image;
+mod scene_file;
