@@ -67,28 +67,15 @@ fn compare(gpu: &Gpu, sizes: impl Iterator<Item = [u32; 2]>) {
 }
 
 #[test]
-fn rows_and_columns_equal_the_reference() {
+fn rows_and_columns_up_to_4096_equal_the_reference() {
     let Some(gpu) = gpu() else { return };
-    compare(gpu, (1..=4096).filter(|n| of_interest(*n)).flat_map(|n| [[1, n], [n, 1]]));
-}
-
-/// Small numbers, and those around a power of two or its three halves, where remainders chain.
-fn of_interest(n: u32) -> bool {
-    let near = |pivot: u32| n.abs_diff(pivot) <= 2;
-    n <= 130
-        || near(n.next_power_of_two())
-        || near(n.next_power_of_two() / 2)
-        || near(n.next_power_of_two() / 4 * 3)
-        || n.is_multiple_of(97)
+    compare(gpu, (1..=4096).flat_map(|n| [[1, n], [n, 1]]));
 }
 
 #[test]
-fn small_rectangles_equal_the_reference() {
+fn rectangles_up_to_130_equal_the_reference() {
     let Some(gpu) = gpu() else { return };
-    // Every side to 130 with every remainder pattern of the other: all pairs to 17, then strides that are coprime to everything.
-    let all = (1..=17).flat_map(|x| (1..=17).map(move |y| [x, y]));
-    let strided = (1..=130).flat_map(|x| (0..6).map(move |i| [x, (x * 37 + i * 23) % 130 + 1]));
-    compare(gpu, all.chain(strided));
+    compare(gpu, (1..=130).flat_map(|x| (1..=130).map(move |y| [x, y])));
 }
 
 #[test]
