@@ -16,8 +16,8 @@
 const TRAVERSAL_SLACK: f32 = 4.8e-7;
 // A travel below this crosses no border: 1 / travel would overflow.
 const TRAVERSAL_STILL: f32 = 1e-20;
-// The outer border of a clamped field's outermost cells, in texels: further than a ray travels.
-const TRAVERSAL_FAR: i32 = 1 << 30;
+// Where a ray meets the outer border of a clamped field's outermost cells: never.
+const TRAVERSAL_NEVER: f32 = 3e38;
 
 // The first meeting of the ray with the surface for t in [t_begin, t_end]. A falling ray (rise < 0) that is still above it at
 // t_end has met the floor of the slab there; a climbing one has left.
@@ -33,9 +33,6 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
     let backward = travel < vec2f(0.0);
     let forward = select(vec2i(1), vec2i(0), backward);
     let toward = select(vec2i(1), vec2i(-1), backward);
-    // Where the field's end lies, as one meets it: the next tile, or never.
-    let end_border = select(select(vec2i(TRAVERSAL_FAR), vec2i(-TRAVERSAL_FAR), backward), cells, vec2<bool>(wraps));
-
     // The cell at the start, and the texel at which its tile begins, counted from the ray's own cell.
     let start = ray.lattice + t_begin * travel;
     var cell = vec2i(select(floor(start), ceil(start) - 1.0, backward)) + ray.cell;
@@ -63,8 +60,9 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
         let node = min(cell >> vec2u(u32(level)), nodes - 1);
         let bound = textureLoad(pyramid, max(node, vec2i(0)), level).r + TRAVERSAL_SLACK;
         let outermost = node == select(nodes - 1, vec2i(-1), backward);
-        let border = select((node + forward) << vec2u(u32(level)), end_border, outermost);
-        let t_border = (vec2f(border + tile) - ray.lattice) * per_travel;
+        let border = select((node + forward) << vec2u(u32(level)), cells, outermost);
+        let crossed = (vec2f(border + tile) - ray.lattice) * per_travel;
+        let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!wraps));
         let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
 
         // From where on it is under the bound, if it comes to that ([PDM] fig. 7: advance the ray to the bound).
