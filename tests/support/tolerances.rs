@@ -112,7 +112,8 @@ pub const SOFT_OFF_SHARE: f64 = 2e-3;
 /// Mean difference that samples above the stated count make: a quarter of a step of an 8-bit picture.
 pub const SOFT_CONVERGED: f64 = 1e-3;
 
-/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: a tenth of that is what the fall itself makes.
+/// Largest step of visibility between receivers a twentieth of a cell apart across a penumbra: less than half of it is the
+/// fall itself.
 pub const SOFT_STEP: f64 = 1.0 / 64.0;
 
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
