@@ -47,7 +47,26 @@ pub fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::i
     write_inner(path, fill).map_err(|error| WriteError::new(path, error))
 }
 
+/// Finds out whether `path` could be written, before the work that it is for; leaves nothing.
+///
+/// # Errors
+///
+/// No file can be made there.
+pub fn check(path: &Path) -> Result<(), WriteError> {
+    beside(path).map(drop).map_err(|error| WriteError::new(path, error))
+}
+
 fn write_inner(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>) -> std::io::Result<()> {
+    let mut file = beside(path)?;
+    let mut writer = BufWriter::with_capacity(1 << 16, file.as_file_mut());
+    fill(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    file.persist(path).map(drop).map_err(|error| error.error)
+}
+
+/// An empty file beside the place of another, which vanishes when it is dropped.
+fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     if path.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
     }
@@ -60,16 +79,11 @@ fn write_inner(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std:
     // A temporary file is its owner's alone by default; this one becomes a common file under the user's umask.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(directory).map_err(|error| match error.get_ref() {
+    builder.tempfile_in(directory).map_err(|error| match error.get_ref() {
         // The temporary name means nothing to anyone: keep the kind alone.
         Some(_) => error.kind().into(),
         None => error,
-    })?;
-    let mut writer = BufWriter::with_capacity(1 << 16, file.as_file_mut());
-    fill(&mut writer)?;
-    writer.flush()?;
-    drop(writer);
-    file.persist(path).map(drop).map_err(|error| error.error)
+    })
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::clock::{Clock, Pace};
 use crate::field;
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, PassTime, Readback, Timer};
+use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
 use crate::surface::channels::Channel;
@@ -107,6 +108,9 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
     let picture = Picture::new(&gpu, options.common.image_size);
     let pass = Channels::new(&gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?;
 
+    if let Some(path) = &options.json {
+        atomic::check(path)?;
+    }
     let mut clock = Clock::new(frame.step_seconds());
     let mut samples = Samples::default();
     let mut bytes = Vec::new();
