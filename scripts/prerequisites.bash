@@ -53,15 +53,22 @@ need_rust() {
     fi
 }
 
+# The program as it was just built. Not by way of `cargo run` alone: after `cargo test` that would build every dependency again, with
+# the features that the tests do without.
+rilievo() {
+    local program="${CARGO_TARGET_DIR:-target}/debug/rilievo"
+    if [ -x "$program" ]; then "$program" "$@"; else cargo run --quiet --locked -- "$@"; fi
+}
+
 # An adapter: asks the program itself. Only Linux keeps its drivers in packages of their own.
 need_adapter() {
-    if cargo run --quiet -- adapters "$@" >/dev/null 2>&1; then
+    if rilievo adapters "$@" >/dev/null 2>&1; then
         return 0
     fi
     if [ "$(uname -s)" = Linux ]; then
         install "there is no usable graphics adapter, Mesa's drivers have one in software" libvulkan1 mesa-vulkan-drivers
     fi
-    cargo run --quiet -- adapters "$@" >&2 || fail "there is still no usable graphics adapter: see the message above"
+    rilievo adapters "$@" >&2 || fail "there is still no usable graphics adapter: see the message above"
 }
 
 # The libraries that a window loads when it opens.

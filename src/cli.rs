@@ -266,7 +266,7 @@ pub struct StressOptions {
     pub frames: u32,
 
     /// How many seeded discs to stamp each frame
-    #[arg(long, value_name = "K", value_parser = whole_u32, default_value = "0", allow_negative_numbers = true)]
+    #[arg(long, value_name = "K", value_parser = stamps, default_value = "0", allow_negative_numbers = true)]
     pub stamps: u32,
 
     /// Their radius, texels
@@ -430,6 +430,12 @@ fn whole_u64(text: &str) -> Result<u64, String> {
 
 fn whole_u32(text: &str) -> Result<u32, String> {
     text.parse().map_err(|_| format!("it must be a whole number from 0 to {}", u32::MAX))
+}
+
+/// Stamps of a frame. A stamp is 48 bytes before the bins can say that their tiles are too many.
+fn stamps(text: &str) -> Result<u32, String> {
+    const MOST: u32 = 1 << 22;
+    whole_u32(text).ok().filter(|count| *count <= MOST).ok_or_else(|| format!("it must be a whole number from 0 to {MOST}"))
 }
 
 fn positive_u32(text: &str) -> Result<u32, String> {
@@ -644,7 +650,14 @@ mod tests {
         let values = values.into_iter().flat_map(|(flag, values)| {
             values.split(' ').map(move |value| (format!("capture --out DIR --{flag} {value}"), format!("--{flag}")))
         });
-        let stress = [("frames", "0"), ("stamps", "-1"), ("stamp-radius", "0"), ("stamp-radius", "-3"), ("stamp-radius", "nan")];
+        let stress = [
+            ("frames", "0"),
+            ("stamps", "-1"),
+            ("stamps", "4294967295"),
+            ("stamp-radius", "0"),
+            ("stamp-radius", "-3"),
+            ("stamp-radius", "nan"),
+        ];
         let stress = stress.map(|(flag, value)| (format!("stress --{flag} {value}"), format!("--{flag}")));
         for (line, part) in lines.map(|(line, part)| (line.to_owned(), part.to_owned())).into_iter().chain(values).chain(stress) {
             match parse(&line) {

@@ -11,7 +11,7 @@ use crate::field::pyramid::{Pyramid, PyramidSet};
 use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
 use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
-use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
+use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
@@ -189,10 +189,15 @@ impl Frame {
     /// A shader does not compile: the frame goes on with the passes it had.
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
         let choice = self.choice();
+        let _ = gpu.take_error();
         let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
+        // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
+        if let Some(message) = gpu.take_error() {
+            return Err(ShaderError::Unfit(message));
+        }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         let set = surface.bind(gpu, &self.field);
         self.surfaces = HashMap::from([(choice, (surface, set))]);
@@ -205,12 +210,14 @@ impl Frame {
     }
 
     /// Takes over what does not change the field's contents: trace, light, material, depth, the wave's speed, damping and border.
+    /// The field's size and addressing, and whether there are waves, must be what they were.
     ///
     /// # Errors
     ///
     /// The picture's size with the new supersampling is beyond the adapter's limits, or a shader does not compile: the frame
     /// goes on with what it had.
     pub fn set_scene(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), FrameError> {
+        debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
         check_limits(gpu, scene, self.image_size)?;
         let before = std::mem::replace(&mut self.scene, scene.clone());
         if let Err(error) = self.build_surface(gpu) {
@@ -221,7 +228,7 @@ impl Frame {
             self.retarget(gpu);
         }
         if let (Some((_, set)), Some(wave)) = (&mut self.waves, &scene.wave)
-            && before.wave != scene.wave
+            && (before.wave != scene.wave || before.plane.width_metres != scene.plane.width_metres)
         {
             set.set_scene(gpu, &self.field, wave, scene.plane_size_metres());
         }
@@ -381,7 +388,8 @@ impl Frame {
         self.field.memory_bytes() + self.radiance.memory_bytes() + 4 * width * height
     }
 
-    /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header.
+    /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
+    /// tiles that a changed region is rounded to, are not counted.
     pub fn field_traffic_bytes(&self) -> u64 {
         let texels = u64::from(self.field.size[0]) * u64::from(self.field.size[1]);
         let waves = if self.waves.is_some() { 4 } else { 0 };
@@ -431,17 +439,15 @@ pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<()
     let ways_out = "ask for a smaller one with --size, or for less supersampling in the scene";
     let traced = image_size.map(|pixels| pixels.saturating_mul(scene.trace.supersampling));
     check("a picture", traced, ways_out)?;
-    // The buffer that a picture is read back through.
-    let bytes = u64::from(traced[0]).saturating_mul(u64::from(traced[1])) * u64::from(Radiance::CONTRACT.texel_bytes());
-    if bytes > limits.max_buffer_size {
-        return Err(FrameError::Limit {
-            what: "a picture",
-            width: traced[0],
-            height: traced[1],
-            limit: limits.max_buffer_size,
-            unit: "bytes",
-            remedy: ways_out,
-        });
-    }
-    Ok(())
+    // The buffers that a picture and a field are read back through: four bytes a texel, rows padded.
+    let readable = |what, size: [u32; 2], remedy| {
+        let row = u64::from((4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+        if row * u64::from(size[1]) > limits.max_buffer_size {
+            let limit = limits.max_buffer_size;
+            return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit: "bytes", remedy });
+        }
+        Ok(())
+    };
+    readable("a field", scene.field.size, "ask for a smaller one with --field")?;
+    readable("a picture", image_size, "ask for a smaller one with --size")
 }

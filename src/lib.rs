@@ -46,7 +46,6 @@
 //!   its talk.
 //! - **\[PDM\]** K. Oh, H. Ki, C.-H. Lee, *Pyramidal Displacement Mapping*, VRST 2006, revised 2007.
 //! - **\[Zink\]** J. Zink, *A Closer Look at Parallax Occlusion Mapping*, GameDev.net 2006, revised 2008.
-//! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 poster.
 
 pub mod camera;
 pub mod cli;

@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 
 use rilievo::cli::{self, Command, Refusal, Verbosity};
-use rilievo::gpu::AdapterError;
 use rilievo::modes::{self, ModeError};
 use rilievo::{io, io::scene_file};
 
@@ -64,7 +63,7 @@ fn scenes() -> String {
 /// Prints the error, if there is one, and chooses the exit code.
 fn exit(outcome: anyhow::Result<()>) -> ExitCode {
     let Err(error) = outcome else { return ExitCode::SUCCESS };
-    let no_adapter = matches!(error.downcast_ref(), Some(ModeError::Adapter(_))) || error.is::<AdapterError>();
+    let no_adapter = matches!(error.downcast_ref(), Some(ModeError::Adapter(_)));
     say(&format!("{error:#}"), if no_adapter { NO_ADAPTER } else { FAILED })
 }
 

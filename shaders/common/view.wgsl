@@ -30,24 +30,21 @@ struct View {
 
     light_in_field: vec2f,       // lattice travel of a light ray while it climbs by a height of 1
     light_is_up: f32,            // 1 where the light is above the plane, else 0
-    time_seconds: f32,
+    first_row: u32,              // of the band that channels are written for
 
     eye_world: vec3f,
     specular: f32,
     light_world: vec3f,          // unit vector toward the light
     shininess: f32,
     light_radiance: vec3f,       // that a white surface facing the light has
-    wave_amplitude: f32,         // height that a wave of displacement 1 adds
+    rest_height: f32,            // height of the undisturbed surface: the water line
     sky: vec3f,                  // radiance from overhead
     texel_metres: f32,
     ground: vec3f,               // radiance from below
     shows: u32,                  // what the picture shows: see surface/shade.wgsl
     tint: vec3f,
-    rest_height: f32,            // height of the undisturbed surface: the water line
 
     image_size: vec2u,           // of the traced picture, pixels
-    supersampling: u32,          // traced pixels along each side of a shown one
-    first_row: u32,              // of the band that channels are written for
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -1,7 +1,7 @@
 // Stamp: presses this frame's stamps into the relief and its material, in the order of their submission.
 //
 //   relief        r32float  read-write  heights with every stamp so far, unclamped; 1 = reference surface, 0 = deepest
-//   material_map  r32uint   read-write  4×unorm8: r = soot, g = bare (fresh broken material), b and a = 0
+//   material_map  r32uint   read-write  4×unorm8: r = soot, g = bare (fresh broken material), b = post, kept; a = 0
 //
 // One workgroup a touched tile gathers its stamps: no two write the same texel, so blends keep their order. 8 bytes a texel of
 // a touched tile read and, where a stamp covers it, written; half of that if all stamps are plain. A stamp that misses a texel

@@ -4,7 +4,7 @@
 
 struct Channel {
     position: vec3f,  // world, on the ray
-    steps: f32,       // −1 where the pixel shows no surface
+    steps: f32,       // −1 where the pixel shows no surface, −1 − n where its ray gave up after n
     normal: vec3f,    // world, as shaded
     height: f32,      // of the field there
     uv: vec2f,        // not wrapped
@@ -30,6 +30,11 @@ fn write_channels(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     let shaded = shade(pixel.ray);
+    if shaded.hit.status == CAPPED {
+        // It found no surface, and says how long it looked.
+        channels[index] = Channel(vec3f(0.0), -1.0 - f32(shaded.hit.steps), vec3f(0.0), 0.0, vec2f(0.0), 0.0, 0.0);
+        return;
+    }
     channels[index] = Channel(
         world_of(shaded.hit.lattice, shaded.hit.height),
         f32(shaded.hit.steps),

@@ -16,8 +16,8 @@
 const TRAVERSAL_SLACK: f32 = 4.8e-7;
 // A travel below this crosses no border: 1 / travel would overflow.
 const TRAVERSAL_STILL: f32 = 1e-20;
-// The outer border of a clamped field's outermost cells, in texels: further than a ray travels.
-const TRAVERSAL_FAR: i32 = 1 << 30;
+// Where a ray meets the outer border of a clamped field's outermost cells: never.
+const TRAVERSAL_NEVER: f32 = 3e38;
 
 // What does not change on the way.
 struct TraversalWay {
@@ -68,8 +68,6 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
     let way = TraversalWay(
         vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1,
     );
-    // Where the field's end lies, as one meets it: the next tile, or never.
-    let end_border = select(TRAVERSAL_FAR * toward, way.cells, vec2<bool>(way.wraps));
 
     // The place at the start. Coarser first nodes are rarely clear of the surface, finer ones are many: half the ray's extent
     // measured best.
@@ -101,8 +99,9 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
             let node = traversal_node(way, place, place.level);
             let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
             let outermost = node == select(last_node, vec2i(-1), backward);
-            let border = select((node + select(vec2i(1), vec2i(0), backward)) << scale, end_border, outermost);
-            let t_border = (vec2f(border + place.tile) - ray.lattice) * per_travel;
+            let border = select((node + select(vec2i(1), vec2i(0), backward)) << scale, way.cells, outermost);
+            let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
+            let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
             t_out = max(t, min(min(t_border.x, t_border.y), t_end));
 
             // From where on it is under the bound, if it comes to that ([PDM] fig. 7: advance the ray to the bound).

@@ -14,8 +14,8 @@ pub const TILE: u32 = 16;
 /// Bytes a texel by design: relief in, height out; a wave adds four.
 pub const TEXEL_BYTES: u64 = 8;
 
-/// Regions that one frame may compose separately; more become one.
-pub const MAX_REGIONS: u32 = 64;
+/// Regions that one frame may compose separately: as many as [`Dirty`](super::Dirty) keeps apart.
+pub const MAX_REGIONS: u32 = super::Dirty::MAX_REGIONS as u32;
 
 /// Uniforms of one dispatch.
 #[repr(C)]

@@ -45,8 +45,8 @@ impl Normals {
     /// The tile and its halo of one stay in cache.
     pub const WORKGROUP: [u32; 2] = [16, 8];
 
-    /// Regions that one frame may derive separately.
-    pub const MAX_REGIONS: u32 = 64;
+    /// Regions that one frame may derive separately: each that changed, grown, in up to four pieces where the field wraps.
+    pub const MAX_REGIONS: u32 = 4 * super::Dirty::MAX_REGIONS as u32;
 
     /// Builds the pipeline.
     ///

@@ -52,8 +52,8 @@ impl Pyramid {
     /// A row of texels is contiguous in memory.
     pub const WORKGROUP: [u32; 2] = [16, 8];
 
-    /// Regions that one frame may rebuild separately.
-    pub const MAX_REGIONS: u32 = 64;
+    /// Regions that one frame may rebuild separately: each that changed, grown, in up to four pieces where the field wraps.
+    pub const MAX_REGIONS: u32 = 4 * super::Dirty::MAX_REGIONS as u32;
 
     /// Builds the pipelines.
     ///
@@ -132,7 +132,7 @@ fn dispatches(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> Vec<(
         let size = [(size[0] >> level).max(1), (size[1] >> level).max(1)];
         if level > 0 {
             regions = regions.iter().map(|region| region.parents(size)).collect();
-            // Far up the regions meet; each node needs its bound once.
+            // Far up the regions meet.
             regions.dedup();
         }
         dispatches.extend(

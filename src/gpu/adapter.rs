@@ -76,7 +76,8 @@ pub fn kind(device_type: wgpu::DeviceType) -> &'static str {
 impl Preference {
     /// Completes what the command line left open from `WGPU_BACKEND` and `WGPU_ADAPTER_NAME`.
     pub fn with_environment(mut self) -> Self {
-        self.backend = self.backend.or_else(wgpu::Backends::from_env);
+        // A name that wgpu does not know is no choice.
+        self.backend = self.backend.or_else(wgpu::Backends::from_env).filter(|backends| !backends.is_empty());
         self.name = self.name.or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok()).filter(|name| !name.is_empty());
         self
     }
@@ -240,7 +241,8 @@ impl Gpu {
         let sink = errors.clone();
         // Without a handler wgpu panics. Modes ask for what was collected after each frame and end with one sentence.
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            log::error!("{error}");
+            // Modes tell it, once, as the sentence of an error.
+            log::debug!("{error}");
             if let Ok(mut errors) = sink.lock() {
                 errors.push(error.to_string());
             }

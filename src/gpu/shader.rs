@@ -66,6 +66,9 @@ pub enum ShaderError {
         /// naga's message, with the source around it.
         message: String,
     },
+    /// It is valid, but does not fit the pipeline that it is for.
+    #[error("a shader does not fit its pass: {0}")]
+    Unfit(String),
 }
 
 /// The WGSL that passes are built from.

@@ -123,7 +123,9 @@ impl HeightImage {
         let largest = unmapped(self.heights.iter().copied().fold(f32::NEG_INFINITY, f32::max));
         let [column, row] = self.position(i);
         #[expect(clippy::cast_possible_truncation, reason = "to print them as short as f32 can be")]
-        let [least, largest] = [least as f32, largest as f32];
+        // One value alone spans no range: say one that does.
+        let [least, largest] =
+            if least < largest { [least as f32, largest as f32] } else { [least.min(0.0) as f32, largest.max(1.0) as f32] };
         Err(format!(
             "has values from {least} to {largest}, outside of {low} to {high} first in column {column}, row {row}: map them with --height-range {least},{largest}"
         ))

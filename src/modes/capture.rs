@@ -71,7 +71,7 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
 /// The device was lost, or a file cannot be written; nothing is left behind.
 pub fn write_last_frame(
     gpu: &Gpu,
-    frame: &mut Frame,
+    frame: &Frame,
     input: &FrameInput<'_>,
     dt_seconds: f64,
     warmup: u32,

@@ -16,6 +16,7 @@ use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, PassTime, Readback, Timer};
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
+use crate::surface::channels::Channel;
 use crate::surface::{Channels, Shows};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
@@ -62,7 +63,8 @@ pub struct StepsReport {
     pub p99: f64,
     /// The most.
     pub max: f64,
-    /// Pixels whose ray visited as many nodes as it may, and gave up.
+    /// Pixels whose ray visited as many nodes as it may, and gave up: in the table only.
+    #[serde(skip)]
     pub capped: usize,
 }
 
@@ -220,11 +222,12 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 
 fn count_steps(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<StepsReport, ModeError> {
     let channels = read_channels(gpu, frame, pass, input)?;
-    let mut steps: Vec<f64> = channels.iter().filter(|pixel| pixel.steps >= 0.0).map(|pixel| f64::from(pixel.steps)).collect();
+    // A ray that gave up is −1 less the steps that it took.
+    let taken = |pixel: &Channel| if pixel.steps < -1.0 { -1.0 - pixel.steps } else { pixel.steps };
+    let mut steps: Vec<f64> = channels.iter().map(|pixel| f64::from(taken(pixel))).filter(|steps| *steps >= 0.0).collect();
     steps.sort_by(f64::total_cmp);
     let Some(&max) = steps.last() else { return Ok(StepsReport::default()) };
-    let cap = f64::from(frame.scene().trace.step_cap);
-    let capped = steps.iter().filter(|steps| **steps >= cap).count();
+    let capped = channels.iter().filter(|pixel| pixel.steps < -1.0).count();
     Ok(StepsReport { mean: steps.iter().sum::<f64>() / steps.len() as f64, p99: quantile(&steps, 0.99), max, capped })
 }
 

@@ -13,7 +13,7 @@ use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 pub struct Channel {
     /// The point on the view ray where the technique finds the surface, world, metres.
     pub position: [f32; 3],
-    /// Height samples or nodes that the view ray took; −1 where the pixel shows no surface.
+    /// Height samples or nodes that the view ray took; −1 where the pixel shows no surface, −1 − n where its ray gave up after n.
     pub steps: f32,
     /// The normal as shaded, world.
     pub normal: [f32; 3],

@@ -75,7 +75,7 @@ fn write_last_frame(mut session: Session, options: &LiveOptions, frames: u32, ou
     session.frame.resize(&session.gpu, options.common.image_size)?;
     let (camera, tick) = session.last();
     let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, shows: Shows::Picture };
-    capture::write_last_frame(&session.gpu, &mut session.frame, &input, DT_SECONDS, frames - 1, out)
+    capture::write_last_frame(&session.gpu, &session.frame, &input, DT_SECONDS, frames - 1, out)
 }
 
 /// The program in a window.
