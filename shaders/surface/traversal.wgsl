@@ -19,90 +19,126 @@ const TRAVERSAL_STILL: f32 = 1e-20;
 // Where a ray meets the outer border of a clamped field's outermost cells: never.
 const TRAVERSAL_NEVER: f32 = 3e38;
 
+// What does not change on the way.
+struct TraversalWay {
+    cells: vec2i,          // of the field, an axis
+    wraps: bool,
+    backward: vec2<bool>,  // axes on which the ray goes down
+    toward: vec2i,         // −1 there, else 1
+    top: i32,              // the coarsest level
+}
+
+// Where the ray is.
+struct TraversalPlace {
+    cell: vec2i,  // of level 0, in the field's tile
+    tile: vec2i,  // the texel at which that tile begins, counted from the ray's own cell
+    level: i32,
+}
+
+// The node of the place's level that holds its cell: the last of a row takes the remainder.
+fn traversal_node(way: TraversalWay, place: TraversalPlace, level: i32) -> vec2i {
+    return min(place.cell >> vec2u(u32(level)), traversal_nodes(way, level) - 1);
+}
+
+fn traversal_nodes(way: TraversalWay, level: i32) -> vec2i {
+    return max(way.cells >> vec2u(u32(level)), vec2i(1));
+}
+
+// The place on the other side of the node's border on the axis that is crossed; `within` is the cell before, at the border.
+fn traversal_across(way: TraversalWay, place: TraversalPlace, within: vec2i, crosses: vec2<bool>) -> TraversalPlace {
+    let cell = select(within, within + way.toward, crosses);
+    // Climb where that leaves a parent behind, and never into a node that holds what was just left: rounding could lead back.
+    let above = min(place.level + 1, way.top);
+    let last_parent = traversal_nodes(way, above) - 1;
+    let leaves = crosses & (min(within >> vec2u(u32(above)), last_parent) != min(cell >> vec2u(u32(above)), last_parent));
+    // A tile's end leaves every node behind.
+    let over = select(vec2i(0), way.cells * way.toward, vec2<bool>(way.wraps) & ((cell < vec2i(0)) | (cell >= way.cells)));
+    return TraversalPlace(cell - over, place.tile + over, select(place.level, above, any(leaves) || any(over != vec2i(0))));
+}
+
 // The first meeting of the ray with the surface for t in [t_begin, t_end]. A falling ray (rise < 0) that is still above it at
 // t_end has met the floor of the slab there; a climbing one has left.
 fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
-    let cells = vec2i(view.field_size);
-    let top = i32(textureNumLevels(pyramid)) - 1;
-    let wraps = view.wrap != 0u;
     let falls = ray.rise < 0.0;
-
     let still = abs(ray.travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(ray.travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(ray.travel, vec2f(TRAVERSAL_STILL), still);
     let backward = travel < vec2f(0.0);
-    let forward = select(vec2i(1), vec2i(0), backward);
     let toward = select(vec2i(1), vec2i(-1), backward);
-    // The cell at the start, and the texel at which its tile begins, counted from the ray's own cell.
-    let start = ray.lattice + t_begin * travel;
-    var cell = vec2i(select(floor(start), ceil(start) - 1.0, backward)) + ray.cell;
-    var tile = vec2i(0);
-    if wraps {
-        tile = cell / cells;
-        tile = (tile - select(vec2i(0), vec2i(1), cell < tile * cells)) * cells;
-        cell -= tile;
-    } else {
-        cell = clamp(cell, vec2i(-1), cells - 1);
-    }
-    tile -= ray.cell;
+    let way = TraversalWay(
+        vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1,
+    );
 
-    // Coarser first nodes are rarely clear of the surface, finer ones are many: half the ray's extent measured best.
+    // The place at the start. Coarser first nodes are rarely clear of the surface, finer ones are many: half the ray's extent
+    // measured best.
+    let start = ray.lattice + t_begin * travel;
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
-    var level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, top);
+    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
+    let cell = vec2i(select(floor(start), ceil(start) - 1.0, backward)) + ray.cell;
+    var place = TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
+    if way.wraps {
+        let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
+        place = TraversalPlace(cell - tile, tile - ray.cell, level);
+    }
 
     var t = t_begin;
     var steps = 0u;
     while steps < view.step_cap {
-        steps += 1u;
+        // On to the next cell whose bound the ray goes under. A loop of its own: neighbours in a SIMD register search together
+        // and then solve together, which takes 0.8 of the time of solving as soon as one of them can.
+        var t_under = t;
+        var t_out = t;
+        var crosses = vec2<bool>(false);
+        var arrived = false;
+        while !arrived && steps < view.step_cap {
+            steps += 1u;
 
-        // The node, its bound, and where the ray leaves it.
-        let nodes = max(cells >> vec2u(u32(level)), vec2i(1));
-        let node = min(cell >> vec2u(u32(level)), nodes - 1);
-        let bound = textureLoad(pyramid, max(node, vec2i(0)), level).r + TRAVERSAL_SLACK;
-        let outermost = node == select(nodes - 1, vec2i(-1), backward);
-        let border = select((node + forward) << vec2u(u32(level)), cells, outermost);
-        let crossed = (vec2f(border + tile) - ray.lattice) * per_travel;
-        let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!wraps));
-        let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
+            // The node, its bound, and where the ray leaves it.
+            let scale = vec2u(u32(place.level));
+            let last_node = traversal_nodes(way, place.level) - 1;
+            let node = traversal_node(way, place, place.level);
+            let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
+            let outermost = node == select(last_node, vec2i(-1), backward);
+            let border = select((node + select(vec2i(1), vec2i(0), backward)) << scale, way.cells, outermost);
+            let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
+            let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+            t_out = max(t, min(min(t_border.x, t_border.y), t_end));
 
-        // From where on it is under the bound, if it comes to that ([PDM] fig. 7: advance the ray to the bound).
-        let t_bound = (bound - ray.height) * ray.rise;
-        let t_under = select(select(2.0 * t_end + 1.0, t, t <= t_bound), max(t, t_bound), falls);
-        let enters = t_under <= t_out;
-        if enters && level == 0 {
-            let hit = traversal_leaf(ray, travel, cell, tile, t_under, t_out);
-            if hit <= 1.0 {
-                let t_hit = t_under + hit * (t_out - t_under);
-                return Hit(ray_at(ray, t_hit), ray.height + ray.rise * t_hit, t_hit, steps, HIT);
+            // From where on it is under the bound, if it comes to that ([PDM] fig. 7: advance the ray to the bound).
+            let t_bound = (bound - ray.height) * ray.rise;
+            t_under = select(select(2.0 * t_end + 1.0, t, t <= t_bound), max(t, t_bound), falls);
+            let enters = t_under <= t_out;
+            crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
+            arrived = enters && place.level == 0;
+            if !arrived {
+                if !enters && t_out >= t_end {
+                    return Hit(ray_at(ray, t_end), ray.height + ray.rise * t_end, t_end, steps, select(MISS, HIT, falls));
+                }
+                // Down to where it goes under the bound, or across the border. Rounding never carries it out of the node.
+                t = select(t_out, t_under, enters);
+                let first = max(node << scale, vec2i(-1));
+                let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
+                let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
+                if enters {
+                    place = TraversalPlace(there, place.tile, place.level - 1);
+                } else {
+                    place = traversal_across(way, place, select(there, select(last, first, backward), crosses), crosses);
+                }
             }
         }
-        let descends = enters && level > 0;
-        if !descends && t_out >= t_end {
+        if !arrived {
+            break;
+        }
+        let hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
+        if hit <= 1.0 {
+            let t_hit = t_under + hit * (t_out - t_under);
+            return Hit(ray_at(ray, t_hit), ray.height + ray.rise * t_hit, t_hit, steps, HIT);
+        }
+        if t_out >= t_end {
             return Hit(ray_at(ray, t_end), ray.height + ray.rise * t_end, t_end, steps, select(MISS, HIT, falls));
         }
-
-        // Go there. Rounding never carries the cell out of the node …
-        t = select(t_out, t_under, descends);
-        let first = max(node << vec2u(u32(level)), vec2i(-1));
-        let last = select(((node + 1) << vec2u(u32(level))) - 1, cells - 1, node == nodes - 1);
-        let there = clamp(vec2i(floor(ray.lattice + t * travel)) - tile, first, last);
-        if descends {
-            cell = there;
-            level -= 1;
-            continue;
-        }
-        // … and a crossed border puts it on the border's other side.
-        let crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
-        cell = select(there, select(last + 1, first - 1, backward), crosses);
-        // Climb where that leaves a parent behind: never into a node that holds what was just left, or rounding could lead back.
-        let last_parent = max(nodes >> vec2u(1u), vec2i(1)) - 1;
-        let leaves = outermost | (min(node >> vec2u(1u), last_parent) != min((node + toward) >> vec2u(1u), last_parent));
-        level = min(level + select(0, 1, any(leaves & crosses)), top);
-        if wraps {
-            let over = select(vec2i(0), cells, cell >= cells) - select(vec2i(0), cells, cell < vec2i(0));
-            cell -= over;
-            tile += over;
-        }
+        t = t_out;
+        place = traversal_across(way, place, place.cell, crosses);
     }
     return Hit(ray_at(ray, t), ray.height + ray.rise * t, t, steps, CAPPED);
 }
@@ -110,13 +146,22 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
 // Where on its way through a cell, from 0 at t_in to 1 at t_out, the ray first meets the bilinear patch; 2 where it does not.
 //
 // On that way g = (ray − surface) is A s² + B s + C with C = g(0) and A + B + C = g(1), both evaluated where they are.
-fn traversal_leaf(ray: Ray, travel: vec2f, cell: vec2i, tile: vec2i, t_in: f32, t_out: f32) -> f32 {
-    let z = load_corners(cell);
+fn traversal_leaf(ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, t_in: f32, t_out: f32) -> f32 {
+    // The cell is one of the field's, or the half cell before it: no remainder to take, as load_corners does.
+    let low = max(place.cell, vec2i(0));
+    let beyond = select(way.cells - 1, vec2i(0), vec2<bool>(way.wraps));
+    let high = select(place.cell + 1, beyond, place.cell == way.cells - 1);
+    let z = vec4f(
+        textureLoad(height, low, 0).r,
+        textureLoad(height, vec2i(high.x, low.y), 0).r,
+        textureLoad(height, vec2i(low.x, high.y), 0).r,
+        textureLoad(height, high, 0).r,
+    );
     let along_u = z.y - z.x;
     let along_v = z.z - z.x;
     let twist = z.x - z.y - z.z + z.w;
 
-    let origin = ray.lattice - vec2f(cell + tile);
+    let origin = ray.lattice - vec2f(place.cell + place.tile);
     let enter = clamp(origin + t_in * travel, vec2f(0.0), vec2f(1.0));
     let leave = clamp(origin + t_out * travel, vec2f(0.0), vec2f(1.0));
     let c = ray.height + ray.rise * t_in - (z.x + along_u * enter.x + (along_v + twist * enter.x) * enter.y);

@@ -104,15 +104,17 @@ fn a_million_random_rays_see_the_light_where_the_reference_does() {
 
 #[test]
 fn a_hundred_thousand_adversarial_rays_see_the_light_where_the_reference_does() {
-    let (mut judged, mut wrong) = (0, 0);
+    let (mut judged, mut tangent, mut wrong) = (0, 0, 0);
     for adversary in Adversary::ALL {
         let make = |random: &mut Random, size: [u32; 2]| adversary.ray(random, size);
         let Some(tally) = compare(&format!("{adversary:?}"), rays::ADVERSARIAL, make) else { return };
         judged += tally.0;
+        tangent += tally.1;
         wrong += tally.2;
     }
     assert!(judged >= 100_000);
     assert_eq!(wrong, 0);
+    assert!((tangent as f64) < tolerances::ADVERSARIAL_TANGENT_SHARE * judged as f64);
 }
 
 #[test]

@@ -122,14 +122,15 @@ fn a_million_random_rays_hit_where_the_reference_does() {
 
 #[test]
 fn a_hundred_thousand_adversarial_rays_hit_where_the_reference_does() {
-    let mut rays = 0;
-    let mut wrong = 0;
+    let (mut rays, mut tangent, mut wrong) = (0, 0, 0);
     for adversary in Adversary::ALL {
         let make = |random: &mut Random, size: [u32; 2]| adversary.ray(random, size);
         let Some(tally) = compare(&format!("{adversary:?}"), rays::ADVERSARIAL, make) else { return };
         rays += tally.rays;
+        tangent += tally.tangent;
         wrong += tally.failures.len();
     }
     assert!(rays >= 100_000);
     assert_eq!(wrong, 0);
+    assert!((tangent as f64) < tolerances::ADVERSARIAL_TANGENT_SHARE * rays as f64);
 }

@@ -94,3 +94,19 @@ fn a_long_way_over_low_ground_takes_few_steps() {
         assert!(hit.steps <= 64 && (hit.lattice[0] - 999.2).abs() < 0.1, "{hit:?}");
     }
 }
+
+/// Beyond a clamped border the outermost texels go on for ever, further than integers count.
+#[test]
+fn a_ray_without_end_leaves_a_clamped_field_and_hits_what_goes_on_there() {
+    let Some(gpu) = gpu() else { return };
+    let field = HeightField::from_fn([33, 20], Addressing::Clamp, |x, y| if x % 32 == 0 || y % 19 == 0 { 0.25 } else { 0.0 });
+    let list: Vec<_> = [1e5, 1e9, 1e12, 1e30]
+        .into_iter()
+        .flat_map(|far: f32| [[far, 0.0], [-far, 0.0], [0.0, far], [0.0, -far], [far, far], [-far, far]])
+        .map(|travel| Ray::view([5.5, 7.5], travel))
+        .collect();
+    for hit in rays::trace(gpu, Technique::Exact, &rays::upload(gpu, &field), &rays::view(&field), &list) {
+        assert_eq!(hit.status, Hit::HIT);
+        assert!((hit.t - 0.75).abs() < 1e-4 || hit.lattice[0].abs() < 40.0 && hit.lattice[1].abs() < 40.0, "{hit:?}");
+    }
+}
