@@ -14,7 +14,7 @@ use rilievo::present::PresentParams;
 use rilievo::surface::channels::Channel;
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::ray_map::LinearForm;
-use rilievo::surface::{self, Albedo, Shadow, Technique, View};
+use rilievo::surface::{self, Albedo, Shadow, Shows, Technique, View};
 use wgpu::naga;
 
 /// Every composition that the program can ask for.
@@ -205,16 +205,29 @@ fn no_shader_has_a_uniform_buffer() {
 #[test]
 fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
     let module = module(&["common/noise".to_owned(), "field/stamp".to_owned()]);
-    let in_shader = |name: &str| {
-        let (_, constant) = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name))?;
-        match module.global_expressions[constant.init] {
-            naga::Expression::Literal(naga::Literal::U32(value)) => Some(value),
-            _ => None,
-        }
-    };
     let profiles = Profile::ALL.map(|profile| (format!("STAMP_{profile:?}").to_uppercase(), profile as u32));
     let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
     for (name, number) in profiles.into_iter().chain(blends) {
-        assert_eq!(in_shader(&name), Some(number), "{name}");
+        assert_eq!(constant(&module, &name), Some(number), "{name}");
+    }
+}
+
+#[test]
+fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() {
+    let module = module(&surface::parts(true, Technique::Exact, Shadow::Hard, Albedo::Plain, "surface"));
+    let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
+    let became =
+        [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
+    for (name, number) in shown.chain(became) {
+        assert_eq!(constant(&module, &name), Some(number), "{name}");
+    }
+}
+
+/// A module's constant of this name, where it is a literal.
+fn constant(module: &naga::Module, name: &str) -> Option<u32> {
+    let (_, constant) = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name))?;
+    match module.global_expressions[constant.init] {
+        naga::Expression::Literal(naga::Literal::U32(value)) => Some(value),
+        _ => None,
     }
 }
