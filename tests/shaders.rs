@@ -141,7 +141,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
-        ("Ray", layout!(Ray { lattice, travel, height, rise, cell })),
+        ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
         ("StampParams", layout!(StampParams { size, tile_count })),

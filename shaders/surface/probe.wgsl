@@ -1,6 +1,6 @@
 // Probe: the trace and the shadow for rays that are listed, not seen: tests, and the pointer of a mouse.
 //
-//   rays  storage, 24 bytes a ray  read
+//   rays  storage, 40 bytes a ray  read
 //   hits  storage, 24 bytes a ray  write
 //   seen  storage,  4 bytes a ray  write  visibility of a shadow ray
 

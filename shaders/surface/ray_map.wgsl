@@ -27,7 +27,7 @@ fn pixel_ray(position: vec2f) -> PixelRay {
     let left = vec2f(ray_map_remainder(view.lattice_x, cell.x, pixel), ray_map_remainder(view.lattice_y, cell.y, pixel));
     let lattice = left / denominator;
     let travel = vec2f(ray_map_evaluate(view.travel_x, pixel), ray_map_evaluate(view.travel_y, pixel)) / denominator;
-    return PixelRay(Ray(lattice, travel, 1.0, -1.0, vec2i(cell)), cell + lattice, denominator);
+    return PixelRay(view_ray(lattice, travel, vec2i(cell)), cell + lattice, denominator);
 }
 
 // Whether the pixel looks down upon the plane's own plane, beyond the near distance.

@@ -17,7 +17,7 @@ fn shadow(ray: Ray) -> f32 {
     if start >= highest {
         return 1.0;
     }
-    let hit = traversal(Ray(ray.lattice, ray.travel, start, 1.0, ray.cell), 0.0, highest - start);
+    let hit = traversal(Ray(ray.lattice, ray.travel, start, 1.0, ray.cell, highest - start, MISS), 0.0);
     // A ray that gave up found no way out: it counts as shadowed.
     return select(0.0, 1.0, hit.status == MISS);
 }

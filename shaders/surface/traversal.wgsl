@@ -56,10 +56,20 @@ fn traversal_across(way: TraversalWay, place: TraversalPlace, within: vec2i, cro
     return TraversalPlace(cell - over, place.tile + over, select(place.level, above, any(leaves) || any(over != vec2i(0))));
 }
 
-// The first meeting of the ray with the surface for t in [t_begin, t_end]. A falling ray (rise < 0) that is still above it at
-// t_end has met the floor of the slab there; a climbing one has left.
-fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
+// Nothing is above the highest bound: the search of a falling ray begins where it goes under that.
+fn traversal_begin(ray: Ray) -> f32 {
+    if ray.rise >= 0.0 {
+        return 0.0;
+    }
+    let highest = textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r + TRAVERSAL_SLACK;
+    return clamp((highest - ray.height) / ray.rise, 0.0, ray.t_end);
+}
+
+// The first meeting of the ray with the surface for t in [t_begin, t_end].
+fn traversal(ray: Ray, t_begin: f32) -> Hit {
+    let t_end = ray.t_end;
     let falls = ray.rise < 0.0;
+    let per_rise = 1.0 / select(ray.rise, 1.0, ray.rise == 0.0);
     let still = abs(ray.travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(ray.travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(ray.travel, vec2f(TRAVERSAL_STILL), still);
@@ -105,14 +115,16 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
             t_out = max(t, min(min(t_border.x, t_border.y), t_end));
 
             // From where on it is under the bound, if it comes to that ([PDM] fig. 7: advance the ray to the bound).
-            let t_bound = (bound - ray.height) * ray.rise;
+            // A level ray is under it all the way or nowhere.
+            let level_bound = select(-1.0, TRAVERSAL_NEVER, ray.height <= bound);
+            let t_bound = select((bound - ray.height) * per_rise, level_bound, ray.rise == 0.0);
             t_under = select(select(2.0 * t_end + 1.0, t, t <= t_bound), max(t, t_bound), falls);
             let enters = t_under <= t_out;
             crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
             arrived = enters && place.level == 0;
             if !arrived {
                 if !enters && t_out >= t_end {
-                    return Hit(ray_at(ray, t_end), ray.height + ray.rise * t_end, t_end, steps, select(MISS, HIT, falls));
+                    return end_of(ray, steps);
                 }
                 // Down to where it goes under the bound, or across the border. Rounding never carries it out of the node.
                 t = select(t_out, t_under, enters);
@@ -132,15 +144,15 @@ fn traversal(ray: Ray, t_begin: f32, t_end: f32) -> Hit {
         let hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
         if hit <= 1.0 {
             let t_hit = t_under + hit * (t_out - t_under);
-            return Hit(ray_at(ray, t_hit), ray.height + ray.rise * t_hit, t_hit, steps, HIT);
+            return Hit(ray_at(ray, t_hit), ray_height(ray, t_hit), t_hit, steps, HIT);
         }
         if t_out >= t_end {
-            return Hit(ray_at(ray, t_end), ray.height + ray.rise * t_end, t_end, steps, select(MISS, HIT, falls));
+            return end_of(ray, steps);
         }
         t = t_out;
         place = traversal_across(way, place, place.cell, crosses);
     }
-    return Hit(ray_at(ray, t), ray.height + ray.rise * t, t, steps, CAPPED);
+    return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, CAPPED);
 }
 
 // Where on its way through a cell, from 0 at t_in to 1 at t_out, the ray first meets the bilinear patch; 2 where it does not.
@@ -164,8 +176,8 @@ fn traversal_leaf(ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPl
     let origin = ray.lattice - vec2f(place.cell + place.tile);
     let enter = clamp(origin + t_in * travel, vec2f(0.0), vec2f(1.0));
     let leave = clamp(origin + t_out * travel, vec2f(0.0), vec2f(1.0));
-    let c = ray.height + ray.rise * t_in - (z.x + along_u * enter.x + (along_v + twist * enter.x) * enter.y);
-    let end = ray.height + ray.rise * t_out - (z.x + along_u * leave.x + (along_v + twist * leave.x) * leave.y);
+    let c = ray_height(ray, t_in) - (z.x + along_u * enter.x + (along_v + twist * enter.x) * enter.y);
+    let end = ray_height(ray, t_out) - (z.x + along_u * leave.x + (along_v + twist * leave.x) * leave.y);
     let a = -twist * (leave.x - enter.x) * (leave.y - enter.y);
     let b = end - c - a;
     if c <= 0.0 {

@@ -18,6 +18,7 @@ pub mod traversal;
 pub mod wave;
 
 pub use crate::scene::Addressing;
+use crate::surface::probe;
 pub use crate::surface::probe::Ray;
 
 /// A height field: the bilinear surface between texel centres at the integer lattice positions.
@@ -84,12 +85,12 @@ pub fn address(texel: i64, size: u32, addressing: Addressing) -> usize {
 impl Ray {
     /// A view ray, from the reference surface down.
     pub fn view(lattice: [f32; 2], travel: [f32; 2]) -> Self {
-        Self { lattice, travel, height: 1.0, rise: -1.0, cell: [0, 0] }
+        Self { lattice, travel, height: 1.0, rise: -1.0, cell: [0, 0], t_end: 1.0, ends: probe::Hit::HIT }
     }
 
     /// A shadow ray, from a point of the surface up.
     pub fn shadow(lattice: [f32; 2], travel: [f32; 2], height: f32) -> Self {
-        Self { lattice, travel, height, rise: 1.0, cell: [0, 0] }
+        Self { lattice, travel, height, rise: 1.0, cell: [0, 0], t_end: 1.0 - height, ends: probe::Hit::MISS }
     }
 
     /// Lattice position at t.

@@ -13,14 +13,14 @@ pub fn samples(travel_metres: [f64; 2], depth_metres: f64, range: [f64; 2]) -> f
 
 /// Where the ray meets the profile that is linear between samples 1/`samples` apart, the last one at the floor.
 pub fn trace(field: &HeightField, ray: &Ray, samples: f64) -> Hit {
-    let floor = f64::from(ray.height);
+    let floor = f64::from(ray.t_end);
     let gap = |t: f64| ray.height_at(t) - field.bilinear(ray.lattice_at(t));
     let mut above = (0.0, gap(0.0));
     if above.1 <= 0.0 {
         return Hit::on(ray, 0.0, 1);
     }
     for step in 1_u32.. {
-        let t = (f64::from(step) / samples).min(floor);
+        let t = (f64::from(step) / samples * floor).min(floor);
         let below = (t, gap(t));
         if below.1 <= 0.0 {
             let share = above.1 / (above.1 - below.1);

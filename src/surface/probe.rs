@@ -16,10 +16,14 @@ pub struct Ray {
     pub travel: [f32; 2],
     /// Height at t = 0.
     pub height: f32,
-    /// −1: a view ray, which falls; +1: a shadow ray, which climbs.
+    /// Height gained while t grows by 1: −1 for a view ray over a flat polygon, +1 for a shadow ray.
     pub rise: f32,
     /// A lattice position near the start: what is counted from it keeps the bits that its own size would cost.
     pub cell: [i32; 2],
+    /// Where it ends: at the floor, at the top of the slab, or where it leaves its piece of a shell.
+    pub t_end: f32,
+    /// What it has met there: [`Hit::HIT`] the floor, [`Hit::MISS`] nothing.
+    pub ends: u32,
 }
 
 /// What became of a ray. Twin of the WGSL struct in `shaders/surface/ray.wgsl`.
@@ -41,7 +45,7 @@ pub struct Hit {
 impl Hit {
     /// The ray met the surface.
     pub const HIT: u32 = 0;
-    /// It left the slab upward.
+    /// It left the slab, or its piece of a shell.
     pub const MISS: u32 = 1;
     /// It visited as many nodes as it may and gave up.
     pub const CAPPED: u32 = 2;

@@ -9,7 +9,7 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-use super::probe::Ray;
+use super::probe::{Hit, Ray};
 use crate::camera::Camera;
 
 /// A linear form of the pixel, a·x + b·y + c, split in two. Twin of the WGSL struct in `shaders/common/view.wgsl`.
@@ -90,6 +90,8 @@ pub fn pixel_ray(camera: &Camera, image_size: [u32; 2], target: &Target, pixel: 
         height: 1.0,
         rise: -1.0,
         cell: lattice.map(|lattice| lattice.floor() as i32),
+        t_end: 1.0,
+        ends: Hit::HIT,
     })
 }
 
