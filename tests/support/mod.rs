@@ -5,4 +5,5 @@ pub mod desktop;
 pub mod fields;
 pub mod gpu;
 pub mod rays;
+pub mod seen;
 pub mod tolerances;

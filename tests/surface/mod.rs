@@ -1,9 +1,12 @@
 //! How it is seen.
 
+mod balls;
+mod facet;
 mod ray_map;
 mod shadow_hard;
 mod shadow_none;
 mod shadow_pom_soft;
+mod shell;
 mod trace_exact;
 mod trace_normal;
 mod trace_pom;
