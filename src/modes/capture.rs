@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{ModeError, load_scene, open_device, progress, start, wait_for, wait_for_gpu};
+use super::headless::Headless;
+use super::{ModeError, progress, wait_for, wait_for_gpu};
 use crate::camera::Camera;
 use crate::cli::{CaptureOptions, Channel, Verbosity};
 use crate::clock::{Clock, Pace};
@@ -25,13 +26,8 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormS
 ///
 /// The scene, its image, the adapter, its limits or the output directory are unfit, in this order; nothing is left behind.
 pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeError> {
-    let loaded = load_scene(&options.common)?;
-    let gpu = open_device(&options.common)?;
-    crate::frame::check_limits(&gpu, &loaded.scene, options.common.image_size)?;
-    let start = start(&loaded);
+    let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
-    let mut frame = Frame::new(&gpu, &start, options.common.image_size, PICTURE_FORMAT)?;
-    let picture = Picture::new(&gpu, options.common.image_size);
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
     let directory = OutputDir::create(&options.out)?;
 

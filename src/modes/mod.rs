@@ -2,8 +2,10 @@
 
 pub mod adapters;
 pub mod capture;
+pub mod headless;
 pub mod live;
 mod progress;
+pub mod statistics;
 pub mod stress;
 
 use crate::cli::CommonOptions;
