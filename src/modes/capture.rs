@@ -10,7 +10,7 @@ use crate::clock::{Clock, Pace};
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, Readback};
 use crate::io::manifest::{self, Manifest};
-use crate::io::output_dir::OutputDir;
+use crate::io::output_dir::{OutputDir, Owner};
 use crate::io::{exr_file, png_file};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
@@ -29,7 +29,7 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
     let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
-    let directory = OutputDir::create(&options.out)?;
+    let directory = OutputDir::create(&options.out, Owner::Capture)?;
 
     let mut clock = Clock::new(frame.step_seconds());
     let mut manifest = Manifest::new(scene, &gpu.adapter.get_info(), options.common.image_size, options.dt, options.warmup);
@@ -75,7 +75,7 @@ pub fn write_last_frame(
 ) -> Result<(), ModeError> {
     let picture = Picture::new(gpu, frame.image_size());
     let channels = ChannelFiles::default();
-    let directory = OutputDir::create(out)?;
+    let directory = OutputDir::create(out, Owner::Capture)?;
     picture.draw(gpu, frame, input)?;
     let files = write_files(gpu, frame, &picture, &channels, input, &directory, 0)?;
     let mut manifest = Manifest::new(frame.scene(), &gpu.adapter.get_info(), frame.image_size(), dt_seconds, warmup);

@@ -1,7 +1,8 @@
-//! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
+//! How the frame is run: live in a window, to files, to numbers, against the truth. The modes differ in who owns the clock and where the picture goes.
 
 pub mod adapters;
 pub mod capture;
+pub mod compare;
 pub mod headless;
 pub mod live;
 mod progress;
@@ -31,6 +32,9 @@ pub enum ModeError {
     /// A pass cannot be made.
     #[error(transparent)]
     Shader(#[from] ShaderError),
+    /// The table does not hold against an earlier one.
+    #[error(transparent)]
+    Check(#[from] compare::check::CheckError),
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
