@@ -32,6 +32,9 @@ pub enum ModeError {
     /// A pass cannot be made.
     #[error(transparent)]
     Shader(#[from] ShaderError),
+    /// The specification does not say what the scene shows.
+    #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
+    NoReference,
     /// The table does not hold against an earlier one.
     #[error(transparent)]
     Check(#[from] compare::check::CheckError),
@@ -74,7 +77,7 @@ pub fn start(loaded: &LoadedScene) -> Start {
         // Only an image has no heights of its own.
         None => base::heights(&loaded.scene).unwrap_or_default(),
     };
-    Start::new(&loaded.scene, heights)
+    Start::new(&loaded.scene, heights, loaded.mesh.clone())
 }
 
 /// Waits for bytes on their way from the GPU.

@@ -18,7 +18,7 @@ use crate::gpu::{Gpu, PassTime, Readback};
 use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
-use crate::surface::{Channels, Shows};
+use crate::surface::{Channels, Choice, Shows};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
 const WARMUP_FRAMES: u64 = 5;
@@ -74,7 +74,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
     let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
     frame.timer = headless::trusted_timer(&gpu);
-    let pass = Channels::new(&gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?;
+    let pass = Channels::new(&gpu, Choice::of(scene))?;
 
     if let Some(path) = &options.json {
         atomic::check(path)?;

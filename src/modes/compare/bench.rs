@@ -3,19 +3,20 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::choice::Choice;
+use super::variant::Variant;
 use crate::camera::Camera;
 use crate::clock::{Clock, Pace, Tick};
 use crate::frame::{Frame, FrameInput, Start};
 use crate::gpu::Gpu;
 use crate::io::height_image::HeightImage;
+use crate::mesh::Mesh;
 use crate::modes::capture::{PICTURE_FORMAT, Picture, read_channels, read_texture};
 use crate::modes::headless::trusted_timer;
 use crate::modes::{ModeError, wait_for_gpu};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::channels::Channel;
-use crate::surface::{Channels, Shadow, Shows, Technique};
+use crate::surface::{Channels, Choice, Shows};
 
 /// Time from frame to frame before the instant, seconds: capture's own default.
 pub const DT_SECONDS: f64 = 1.0 / 60.0;
@@ -27,10 +28,11 @@ const SURFACE_PASS: &str = "surface";
 pub struct Bench {
     frame: Frame,
     scene: Scene,
+    mesh: Option<Mesh>,
     picture: Picture,
     tick: Tick,
     /// One for each choice that was shown: a shader takes a while to build.
-    passes: HashMap<(Technique, Shadow), Channels>,
+    passes: HashMap<Choice, Channels>,
 }
 
 /// What one picture shows.
@@ -74,7 +76,7 @@ impl Bench {
         // What was owed is done: from here on time stands.
         tick = Tick { previous_seconds: tick.time_seconds, steps: 0, ..tick };
         frame.timer = trusted_timer(gpu);
-        Ok(Self { frame, scene: scene.clone(), picture, tick, passes: HashMap::new() })
+        Ok(Self { frame, scene: scene.clone(), mesh: start.mesh.clone(), picture, tick, passes: HashMap::new() })
     }
 
     /// The same content over a field of another size, which does not move.
@@ -93,12 +95,12 @@ impl Bench {
         let row = |y: u32| nearest(y, 1) * from[0] as usize;
         let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let material = texels.map(|(x, y)| material[row(y) + nearest(x, 0)]).collect();
-        let start = Start { scene, heights, material };
+        let start = Start { scene, heights, material, mesh: self.mesh.clone() };
         let image_size = self.frame.image_size();
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT)?;
         frame.timer = trusted_timer(gpu);
         let picture = Picture::new(gpu, image_size);
-        Ok(Self { frame, scene: start.scene, picture, tick: self.tick, passes: HashMap::new() })
+        Ok(Self { frame, scene: start.scene, mesh: start.mesh, picture, tick: self.tick, passes: HashMap::new() })
     }
 
     /// The scene.
@@ -130,14 +132,13 @@ impl Bench {
     /// # Errors
     ///
     /// A shader does not compile, or the device was lost.
-    pub fn show(&mut self, gpu: &Gpu, choice: &Choice, camera: &Camera) -> Result<Shown, ModeError> {
-        self.time(gpu, choice, camera)?;
+    pub fn show(&mut self, gpu: &Gpu, variant: &Variant, camera: &Camera) -> Result<Shown, ModeError> {
+        self.time(gpu, variant, camera)?;
         let picture = self.picture.read(gpu)?;
-        let pass = match self.passes.entry((choice.technique, choice.shadow)) {
+        let choice = Choice::of(self.frame.scene());
+        let pass = match self.passes.entry(choice) {
             Entry::Occupied(entry) => entry.into_mut(),
-            Entry::Vacant(entry) => {
-                entry.insert(Channels::new(gpu, choice.technique, choice.shadow, self.scene.material.albedo)?)
-            }
+            Entry::Vacant(entry) => entry.insert(Channels::new(gpu, choice)?),
         };
         let input = FrameInput { tick: &self.tick, strokes: &Strokes::default(), camera, shows: Shows::Picture };
         let pixels = read_channels(gpu, &self.frame, pass, &input)?;
@@ -149,8 +150,11 @@ impl Bench {
     /// # Errors
     ///
     /// A shader does not compile, or the device was lost.
-    pub fn time(&mut self, gpu: &Gpu, choice: &Choice, camera: &Camera) -> Result<Times, ModeError> {
-        self.frame.set_scene(gpu, &choice.scene(&self.scene))?;
+    pub fn time(&mut self, gpu: &Gpu, variant: &Variant, camera: &Camera) -> Result<Times, ModeError> {
+        let scene = variant.scene(&self.scene);
+        if *self.frame.scene() != scene {
+            self.frame.set_scene(gpu, &scene)?;
+        }
         let input = FrameInput { tick: &self.tick, strokes: &Strokes::default(), camera, shows: Shows::Picture };
         let mut encoder = gpu.encoder("compare");
         self.frame.record(gpu, &mut encoder, &input, Some(self.picture.view()))?;

@@ -1,8 +1,8 @@
 //! The curves of a sweep: error against cost, and cost against the size of the field.
 
-use super::choice::has_samples;
 use super::plot::{Axis, Curve, Plot, Scale};
 use super::table::{Row, Table};
+use super::variant::has_samples;
 use crate::surface::Technique;
 
 /// Error against cost, a picture for each camera: one curve for each technique that counts samples, one point for each that does

@@ -5,7 +5,6 @@
 
 mod bench;
 pub mod check;
-mod choice;
 mod curves;
 mod flip;
 mod heat;
@@ -13,15 +12,16 @@ mod metrics;
 mod plot;
 pub mod table;
 mod truth;
+mod variant;
 
 use std::path::Path;
 
 use bench::{Bench, Shown};
 use check::Earlier;
-use choice::Choice;
 use flip::Seen;
 use metrics::{Point, Positions};
 use table::{Errors, Key, Row, Table, Viewpoint};
+use variant::Variant;
 
 use super::headless::Headless;
 use super::statistics::{Spread, Steps};
@@ -46,6 +46,9 @@ use crate::surface::{Shadow, Technique};
 pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, ModeError> {
     let earlier = options.check.as_deref().map(Earlier::read).transpose()?;
     let Headless { gpu, start, frame, picture } = Headless::open(&options.common)?;
+    if options.truth == Truth::Reference && !truth::knows(&start.scene) {
+        return Err(ModeError::NoReference);
+    }
     let plan = Plan::new(options, &start.scene);
     for size in &plan.field_sizes {
         frame::check_limits(&gpu, &bench::resized(&start.scene, *size), options.common.image_size)?;
@@ -113,7 +116,7 @@ pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, Mod
 struct Plan {
     field_sizes: Vec<[u32; 2]>,
     cameras: Vec<scene::Camera>,
-    choices: Vec<Choice>,
+    variants: Vec<Variant>,
     truth: Truth,
     /// The one shadow of all true pictures; none: each row's own.
     truth_shadow: Option<Shadow>,
@@ -143,12 +146,12 @@ impl Plan {
         };
         // Among several shadows the one that makes no compromise is the truth; one alone only asks which technique shows it.
         let truth_shadow = options.truth_shadow.or((shadows.len() > 1).then_some(Shadow::Hard));
-        let choices = Choice::all(&options.techniques(), &shadows, &options.sweep_samples());
-        Self { field_sizes, cameras, choices, truth: options.truth, truth_shadow }
+        let variants = Variant::all(&options.techniques(), &shadows, &options.sweep_samples());
+        Self { field_sizes, cameras, variants, truth: options.truth, truth_shadow }
     }
 
-    fn key(&self, field_size: [u32; 2], camera: usize, choice: &Choice) -> Key {
-        let Choice { technique, shadow, samples } = *choice;
+    fn key(&self, field_size: [u32; 2], camera: usize, variant: &Variant) -> Key {
+        let Variant { technique, shadow, samples } = *variant;
         Key { camera: camera + 1, field_size, technique, samples, shadow, truth_shadow: self.truth_shadow.unwrap_or(shadow) }
     }
 
@@ -156,7 +159,7 @@ impl Plan {
     fn keys(&self) -> Vec<Key> {
         let cameras = || 0..self.cameras.len();
         let views = self.field_sizes.iter().flat_map(|size| cameras().map(|camera| (*size, camera)));
-        views.flat_map(|(size, camera)| self.choices.iter().map(move |choice| self.key(size, camera, choice))).collect()
+        views.flat_map(|(size, camera)| self.variants.iter().map(move |variant| self.key(size, camera, variant))).collect()
     }
 }
 
@@ -191,12 +194,12 @@ impl Run<'_> {
         for (number, camera) in cameras.iter().enumerate() {
             let mut truths: Vec<TruePicture> = Vec::new();
             let mut points: Option<Vec<Option<Point>>> = None;
-            for choice in &plan.choices {
-                let key = plan.key(bench.scene().field.size, number, choice);
+            for variant in &plan.variants {
+                let key = plan.key(bench.scene().field.size, number, variant);
                 let truth = match truths.iter().position(|truth| truth.shadow == key.truth_shadow) {
                     Some(known) => &truths[known],
                     None => {
-                        let truth = Choice { technique: Technique::Exact, shadow: key.truth_shadow, samples: None };
+                        let truth = Variant { technique: Technique::Exact, shadow: key.truth_shadow, samples: None };
                         let shown = bench.show(self.gpu, &truth, camera)?;
                         let seen = Seen::new(&shown.picture, gallery.size);
                         let file = gallery.hang_truth(&shown.picture)?;
@@ -210,7 +213,7 @@ impl Run<'_> {
                         Truth::Reference => truth::reference(bench.scene(), bench.heights(self.gpu)?, camera, gallery.size),
                     });
                 }
-                let shown = bench.show(self.gpu, choice, camera)?;
+                let shown = bench.show(self.gpu, variant, camera)?;
                 let positions =
                     metrics::positions(points.as_deref().unwrap_or_default(), &metrics::points(&shown.pixels, key.field_size));
                 let differences = truth.seen.differences(&Seen::new(&shown.picture, gallery.size));
@@ -228,14 +231,14 @@ impl Run<'_> {
 
     /// Times every row, in turn.
     fn time(&self, bench: &mut Bench, cameras: &[Camera], rows: &mut [Row]) -> Result<(), ModeError> {
-        let views: Vec<(&Camera, &Choice)> =
-            cameras.iter().flat_map(|camera| self.plan.choices.iter().map(move |choice| (camera, choice))).collect();
+        let views: Vec<(&Camera, &Variant)> =
+            cameras.iter().flat_map(|camera| self.plan.variants.iter().map(move |variant| (camera, variant))).collect();
         let mut surface = vec![Vec::new(); views.len()];
         let mut frame = vec![Vec::new(); views.len()];
         // Every pipeline was compiled when the rows were shown; one round more fills the caches.
         for round in 0..=self.frames {
-            for (number, (camera, choice)) in views.iter().enumerate() {
-                let times = bench.time(self.gpu, choice, camera)?;
+            for (number, (camera, variant)) in views.iter().enumerate() {
+                let times = bench.time(self.gpu, variant, camera)?;
                 if round > 0 {
                     surface[number].extend(times.surface);
                     frame[number].extend(times.frame);

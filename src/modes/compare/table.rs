@@ -225,33 +225,27 @@ fn short(number: f64) -> String {
 /// The rows of one camera and field, each column as wide as its widest cell.
 fn aligned(rows: &[Row]) -> String {
     let times = |time: Option<f64>| time.map_or_else(|| "–".to_owned(), |time| format!("{time:.2}"));
-    let mut lines = vec![
-        [
-            "", "", "", "RMS", "99 %", "max", "RMS", "wrong", "shadow", "", "PSNR", "steps", "99 %", "max", "surface", "frame",
-            "GPU",
-        ],
-        [
-            "technique",
-            "samples",
-            "shadow",
-            "texels",
-            "texels",
-            "texels",
-            "mm",
-            "cells",
-            "RMS",
-            "ꟻLIP",
-            "dB",
-            "mean",
-            "",
-            "",
-            "ms",
-            "ms",
-            "MB",
-        ],
-    ]
-    .map(|head| head.map(str::to_owned))
-    .to_vec();
+    // The first line of the head over the second.
+    let head = [
+        ("", "technique"),
+        ("", "samples"),
+        ("", "shadow"),
+        ("RMS", "texels"),
+        ("99 %", "texels"),
+        ("max", "texels"),
+        ("RMS", "mm"),
+        ("wrong", "cells"),
+        ("shadow", "RMS"),
+        ("", "ꟻLIP"),
+        ("PSNR", "dB"),
+        ("steps", "mean"),
+        ("", "99 %"),
+        ("", "max"),
+        ("surface", "ms"),
+        ("frame", "ms"),
+        ("GPU", "MB"),
+    ];
+    let mut lines = vec![head.map(|(above, _)| above.to_owned()), head.map(|(_, below)| below.to_owned())];
     lines.extend(rows.iter().map(|row| {
         let (error, steps) = (row.position_error_texels, row.steps_per_pixel);
         [

@@ -1,4 +1,5 @@
-//! The true positions in f64, from the specification: every cell that a ray crosses, one after the other, on all cores.
+//! The true positions in f64, from the specification: every cell that a ray crosses, one after the other, on all cores. It knows
+//! the bare plane only.
 
 use glam::{DVec2, DVec3};
 
@@ -6,12 +7,22 @@ use super::metrics::Point;
 use crate::camera::Camera;
 use crate::reference::{HeightField, ray_map};
 use crate::scene::Scene;
-use crate::surface::ray_map::Target;
+use crate::surface::ray_map::{Placement, Target};
+use crate::surface::{Stage, Technique};
+
+/// Whether the specification knows what this scene shows: the bare plane.
+pub fn knows(scene: &Scene) -> bool {
+    let mut scene = scene.clone();
+    // Depth changes nothing where nothing else is seen.
+    (scene.trace.technique, scene.trace.displaced_depth) = (Technique::Exact, false);
+    !Stage::is_needed(&scene)
+}
 
 /// What every pixel of the picture shows, row by row.
 pub fn reference(scene: &Scene, heights: Vec<f32>, camera: &Camera, image_size: [u32; 2]) -> Vec<Option<Point>> {
     let field = HeightField::new(scene.field.size, scene.field.addressing, heights);
     let target = Target {
+        placement: Placement::default(),
         field_size: scene.field.size,
         plane_size_metres: scene.plane_size_metres(),
         depth_metres: f64::from(scene.plane.depth_metres),

@@ -5,7 +5,7 @@ use crate::surface::{Shadow, Technique};
 
 /// What a row compares.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct Variant {
     /// How the surface is found.
     pub technique: Technique,
     /// The shadow upon it.
@@ -14,21 +14,21 @@ pub struct Choice {
     pub samples: Option<u32>,
 }
 
-impl Choice {
+impl Variant {
     /// Every technique with every shadow; where counts are swept, each technique that has one with each count.
     pub fn all(techniques: &[Technique], shadows: &[Shadow], sweep: &[u32]) -> Vec<Self> {
-        let mut choices = Vec::new();
+        let mut variants = Vec::new();
         for &technique in techniques {
             for &shadow in shadows {
-                let choice = |samples| Self { technique, shadow, samples };
+                let variant = |samples| Self { technique, shadow, samples };
                 if sweep.is_empty() || !has_samples(technique) {
-                    choices.push(choice(None));
+                    variants.push(variant(None));
                 } else {
-                    choices.extend(sweep.iter().map(|count| choice(Some(*count))));
+                    variants.extend(sweep.iter().map(|count| variant(Some(*count))));
                 }
             }
         }
-        choices
+        variants
     }
 
     /// The scene, shown this way.
@@ -64,12 +64,12 @@ mod tests {
 
     #[test]
     fn counts_are_swept_for_techniques_that_have_one() {
-        let choices = Choice::all(&[Technique::Normal, Technique::Pom], &[Shadow::None, Shadow::Hard], &[4, 8]);
-        let count = |technique| choices.iter().filter(|choice| choice.technique == technique).count();
+        let variants = Variant::all(&[Technique::Normal, Technique::Pom], &[Shadow::None, Shadow::Hard], &[4, 8]);
+        let count = |technique| variants.iter().filter(|variant| variant.technique == technique).count();
         assert_eq!((count(Technique::Normal), count(Technique::Pom)), (2, 4));
-        let scene = choices[3].scene(&Scene::default());
+        let scene = variants[3].scene(&Scene::default());
         assert_eq!((scene.trace.technique, scene.trace.shadow), (Technique::Pom, Shadow::None));
         assert_eq!((scene.trace.pom_samples_min, scene.trace.pom_samples_max), (8, 8));
-        assert_eq!(Choice::all(Technique::ALL, &[Shadow::Hard], &[]).len(), Technique::ALL.len());
+        assert_eq!(Variant::all(Technique::ALL, &[Shadow::Hard], &[]).len(), Technique::ALL.len());
     }
 }
