@@ -22,10 +22,10 @@ pub struct CommonOptions {
     pub scene: String,
 
     #[arg(long, value_name = "T", value_parser = technique, help = technique_help(), help_heading = "Scene")]
-    technique: Option<Technique>,
+    pub(super) technique: Option<Technique>,
 
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
-    shadow: Option<Shadow>,
+    pub(super) shadow: Option<Shadow>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
