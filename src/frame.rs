@@ -16,7 +16,7 @@ use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Albedo, Shadow, Shows, Surface, Technique, View, ViewSet, view};
+use crate::surface::{Display, Look, Surface, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +50,8 @@ pub struct FrameInput<'a> {
     pub strokes: &'a Strokes,
     /// Where it is seen from.
     pub camera: &'a Camera,
-    /// What the picture shows.
-    pub shows: Shows,
+    /// What is shown of it: the picture or a view, and what is beside it.
+    pub display: Display,
 }
 
 /// Why there is no frame.
@@ -90,6 +90,8 @@ pub struct Frame {
     scene: Scene,
     view_layout: BindingLayout,
     view_set: ViewSet,
+    /// The view of the right side, where the picture is split.
+    right_view_set: ViewSet,
     waves: Option<(Waves, WaveSet)>,
     stamps: Stamps,
     stamp_set: StampSet,
@@ -100,7 +102,7 @@ pub struct Frame {
     pyramid: Pyramid,
     pyramid_set: PyramidSet,
     /// One for each choice that was ever shown: switching back costs nothing.
-    surfaces: HashMap<(Technique, Shadow, Albedo), (Surface, SurfaceSet)>,
+    surfaces: HashMap<Look, (Surface, SurfaceSet)>,
     present: Present,
     radiance: Texture<Radiance>,
     present_set: PresentSet,
@@ -129,7 +131,7 @@ impl Frame {
         check_limits(gpu, &scene, image_size)?;
         let field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
         let view_layout = view::layout(gpu);
-        let view_set = ViewSet::new(gpu, &view_layout, field.addressing);
+        let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
         let waves = match &scene.wave {
             Some(wave) => {
                 let waves = Waves::new(gpu)?;
@@ -150,6 +152,7 @@ impl Frame {
             scene,
             view_layout,
             view_set,
+            right_view_set,
             waves,
             stamps,
             stamp_set,
@@ -168,7 +171,7 @@ impl Frame {
             traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
-        frame.build_surface(gpu)?;
+        frame.build_surfaces(gpu, &Display::default())?;
         Ok(frame)
     }
 
@@ -188,9 +191,9 @@ impl Frame {
     ///
     /// A shader does not compile: the frame goes on with the passes it had.
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        let choice = self.choice();
+        let look = Look::of(&self.scene, &Display::default());
         let _ = gpu.take_error();
-        let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
+        let surface = Surface::new(gpu, &self.view_layout, look)?;
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
@@ -200,7 +203,7 @@ impl Frame {
         }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         let set = surface.bind(gpu, &self.field);
-        self.surfaces = HashMap::from([(choice, (surface, set))]);
+        self.surfaces = HashMap::from([(look, (surface, set))]);
         (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
@@ -220,7 +223,7 @@ impl Frame {
         debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
         check_limits(gpu, scene, self.image_size)?;
         let before = std::mem::replace(&mut self.scene, scene.clone());
-        if let Err(error) = self.build_surface(gpu) {
+        if let Err(error) = self.build_surfaces(gpu, &Display::default()) {
             self.scene = before;
             return Err(error.into());
         }
@@ -255,16 +258,20 @@ impl Frame {
         self.present_set = self.present.bind(gpu, &self.radiance.view);
     }
 
-    fn choice(&self) -> (Technique, Shadow, Albedo) {
-        (self.scene.trace.technique, self.scene.trace.shadow, self.scene.material.albedo)
+    /// The sides of what is shown: the scene as it is, and beyond the divider as the split has it.
+    fn sides(&self, display: &Display) -> (Look, Option<Look>) {
+        let right = display.split.as_ref().map(|split| Look::of(&split.scene(&self.scene), &split.shows.into()));
+        (Look::of(&self.scene, display), right)
     }
 
-    fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        let choice = self.choice();
-        if !self.surfaces.contains_key(&choice) {
-            let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
-            let set = surface.bind(gpu, &self.field);
-            self.surfaces.insert(choice, (surface, set));
+    fn build_surfaces(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        let (left, right) = self.sides(display);
+        for look in std::iter::once(left).chain(right) {
+            if !self.surfaces.contains_key(&look) {
+                let surface = Surface::new(gpu, &self.view_layout, look)?;
+                let set = surface.bind(gpu, &self.field);
+                self.surfaces.insert(look, (surface, set));
+            }
         }
         Ok(())
     }
@@ -289,7 +296,7 @@ impl Frame {
     ///
     /// # Errors
     ///
-    /// The strokes are too many for one frame on this adapter.
+    /// The strokes are too many for one frame on this adapter, or a shader that the display asks for does not compile.
     pub fn record(
         &mut self,
         gpu: &Gpu,
@@ -313,6 +320,7 @@ impl Frame {
             self.dirty.add(region, self.field.size);
         }
         let Some(target) = target else { return Ok(()) };
+        self.build_surfaces(gpu, &input.display)?;
         // Derive what depends on the layers, where they changed.
         let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
         self.traffic.derived_texels = changed.iter().map(Region::area).sum();
@@ -333,16 +341,22 @@ impl Frame {
     }
 
     /// Shows the field as it stands once more, in a target of another format, and leaves everything as it is.
+    ///
+    /// # Errors
+    ///
+    /// A shader that the display asks for does not compile.
     pub fn show_with(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         present: &Present,
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
-    ) {
+    ) -> Result<(), ShaderError> {
+        self.build_surfaces(gpu, &input.display)?;
         let set = present.bind(gpu, &self.radiance.view);
         self.show(&mut Recorder { gpu, encoder, timer: &self.timer }, (present, &set), input, target);
+        Ok(())
     }
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
@@ -370,15 +384,29 @@ impl Frame {
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
     ) {
-        let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) else {
-            unreachable!("every change of the choice builds its surface first")
-        };
+        let FrameInput { tick, camera, display, .. } = input;
         let traced = traced_size(&self.scene, self.image_size);
-        let view = View::new(&self.scene, input.camera, input.tick.time_seconds, traced, input.shows);
-        self.view_set.uniform.write(recorder.gpu, &view);
-        surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
-        let tone_map = input.shows == Shows::Picture;
-        present.record(recorder, present_set, self.scene.trace.supersampling, tone_map, target);
+        let supersampling = self.scene.trace.supersampling;
+        let (left, right) = self.sides(display);
+        let side = |recorder: &mut Recorder<'_>, name, look, view_set: &ViewSet, scene: &Scene, shows, columns| {
+            let Some((surface, surface_set)) = self.surfaces.get(&look) else {
+                unreachable!("whoever records builds the surfaces of what it shows first")
+            };
+            let view = View::new(scene, camera, tick.time_seconds, traced, Display { shows, ..*display });
+            view_set.uniform.write(recorder.gpu, &view);
+            surface.record(recorder, name, view_set, surface_set, &self.radiance.view, columns);
+        };
+        let divider = display.divider(self.image_size[0], supersampling);
+        match (divider, right, &display.split) {
+            (Some(column), Some(right), Some(split)) => {
+                // Two looks at the same instant of the same field, each with a time of its own.
+                side(recorder, SIDES[0], left, &self.view_set, &self.scene, display.shows, 0..column);
+                let scene = split.scene(&self.scene);
+                side(recorder, SIDES[1], right, &self.right_view_set, &scene, split.shows, column..traced[0]);
+            }
+            _ => side(recorder, "surface", left, &self.view_set, &self.scene, display.shows, 0..traced[0]),
+        }
+        present.record(recorder, present_set, supersampling, display, self.image_size[0], target);
     }
 
     /// Bytes of GPU memory of every texture.
@@ -408,6 +436,9 @@ impl Frame {
         traced[0] * traced[1] * (4.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
     }
 }
+
+/// What the surface pass is called on each side of a divider.
+pub const SIDES: [&str; 2] = ["surface, left", "surface, right"];
 
 /// Traced pixels of a picture of `image_size`.
 fn traced_size(scene: &Scene, image_size: [u32; 2]) -> [u32; 2] {

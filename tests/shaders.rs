@@ -10,11 +10,13 @@ use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
-use rilievo::present::PresentParams;
+use rilievo::present::{PresentParams, PresentSide};
 use rilievo::surface::channels::Channel;
+use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::ray_map::LinearForm;
-use rilievo::surface::{self, Albedo, Shadow, Shows, Technique, View};
+use rilievo::surface::view::ViewLight;
+use rilievo::surface::{self, Albedo, Look, Shading, Shadow, Shows, Technique, View};
 use wgpu::naga;
 
 /// Every composition that the program can ask for.
@@ -25,18 +27,28 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
         &["field/wave"],
-        &["present"],
+        &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
     for filters in [false, true] {
         for &technique in Technique::ALL {
             for &shadow in Shadow::ALL {
                 for &albedo in Albedo::ALL {
+                    let look = Look { albedo, ..Look::tracing(technique, shadow) };
                     for entry in ["surface", "channels", "probe"] {
-                        all.push(surface::parts(filters, technique, shadow, albedo, entry));
+                        all.push(surface::parts(filters, look, entry));
                     }
                 }
+                // What these choose does not look into the albedo, nor the albedo into them.
+                for &shading in Shading::ALL {
+                    let look = Look { shading, with_truth: true, ..Look::tracing(technique, shadow) };
+                    all.push(surface::parts(filters, look, "surface"));
+                }
             }
+        }
+        for &shading in Shading::ALL {
+            let look = Look { shading, ..Look::tracing(Technique::Normal, Shadow::None) };
+            all.push(surface::parts(filters, look, "light_probe"));
         }
     }
     all
@@ -136,14 +148,26 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 ground,
                 shows,
                 tint,
+                roughness,
                 image_size,
+                metallic,
+                reflection,
+                index,
+                gain,
+                light_count,
+                background,
+                lights,
             }),
         ),
+        ("ViewLight", layout!(ViewLight { toward, casts_shadow, radiance })),
+        ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
+        ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
-        ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
+        ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
+        ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
@@ -217,11 +241,12 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
 
 #[test]
 fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() {
-    let module = module(&surface::parts(true, Technique::Exact, Shadow::Hard, Albedo::Plain, "surface"));
+    let module = module(&surface::parts(true, Look::tracing(Technique::Exact, Shadow::Hard), "surface"));
     let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
-    for (name, number) in shown.chain(became) {
+    let tops = [("VIEWS_STEPS", Shows::STEPS_TOP), ("VIEWS_LEVELS", Shows::LEVELS_TOP)].map(|(name, top)| (name.to_owned(), top));
+    for (name, number) in shown.chain(became).chain(tops) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
     }
 }

@@ -7,6 +7,13 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// A light without extent, infinitely far away.
+struct ViewLight {
+    toward: vec3f,      // unit vector toward it, world
+    casts_shadow: u32,  // 1 where the relief hides it from itself
+    radiance: vec3f,    // that a white surface facing it has
+}
+
 struct View {
     // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
     // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
@@ -47,8 +54,16 @@ struct View {
     ground: vec3f,               // radiance from below
     shows: u32,                  // what the picture shows: see surface/shade.wgsl
     tint: vec3f,
+    roughness: f32,              // 0 a mirror, 1 matt
 
     image_size: vec2u,           // of the traced picture, pixels
+    metallic: f32,               // 0 a dielectric, 1 a metal
+    reflection: f32,             // how much of its surroundings the surface mirrors
+    index: f32,                  // of refraction, where the surface is transparent
+    gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
+    light_count: u32,            // of `lights`
+    background: u32,             // what is behind everything: see surface/sky.wgsl
+    lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Verbosity;
+use super::display::DisplayOptions;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, non_empty, shadow, shadow_help, size, technique, technique_help, whole_u64,
+    backend, camera, depth, field, fov, height_range, non_empty, shading, shading_help, shadow, shadow_help, size, technique,
+    technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 /// What every mode that shows a scene takes.
 #[derive(Args, Clone, Debug, PartialEq)]
@@ -24,6 +26,9 @@ pub struct CommonOptions {
 
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
     shadow: Option<Shadow>,
+
+    #[arg(long, value_name = "M", value_parser = shading, help = shading_help(), help_heading = "Scene")]
+    shading: Option<Shading>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -57,6 +62,10 @@ pub struct CommonOptions {
     #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
     fov: Option<f64>,
 
+    /// What is shown of it.
+    #[command(flatten)]
+    pub display: DisplayOptions,
+
     /// Which machine, and how much it tells.
     #[command(flatten)]
     pub machine: MachineOptions,
@@ -72,6 +81,7 @@ impl CommonOptions {
             depth_metres: self.depth,
             technique: self.technique,
             shadow: self.shadow,
+            shading: self.shading,
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,

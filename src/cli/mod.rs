@@ -4,6 +4,7 @@
 //! scenes are content, not arguments: `io::scene_file` refuses those.
 
 mod common;
+mod display;
 mod modes;
 mod refusal;
 #[cfg(test)]
@@ -16,6 +17,7 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 pub use common::{CommonOptions, MachineOptions};
+pub use display::DisplayOptions;
 pub use modes::{AdaptersOptions, CaptureOptions, Channel, LiveOptions, StressOptions};
 pub use refusal::Refusal;
 

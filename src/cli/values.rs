@@ -4,7 +4,7 @@ use super::Channel;
 use crate::io::scene_file::{CameraPlacement, FieldSize};
 use crate::scene;
 use crate::suggest;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 pub(super) fn technique_help() -> String {
     let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
@@ -14,6 +14,21 @@ pub(super) fn technique_help() -> String {
 pub(super) fn shadow_help() -> String {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
     format!("The shadow upon it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+pub(super) fn shading_help() -> String {
+    let names: Vec<_> = Shading::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What light does to it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+/// One of a list, by its name.
+pub(super) fn one_of<T: Copy>(kind: &str, text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
+    let names: Vec<_> = all.iter().map(|&choice| name(choice)).collect();
+    all.iter().copied().find(|&choice| name(choice) == text).ok_or_else(|| suggest::unknown(kind, text, &names))
+}
+
+pub(super) fn shading(text: &str) -> Result<Shading, String> {
+    one_of("shading", text, Shading::ALL, Shading::name)
 }
 
 pub(super) fn technique(text: &str) -> Result<Technique, String> {

@@ -19,8 +19,10 @@ macro_rules! embed {
 /// The parts that the binary carries, by name: the path under `shaders/` without its ending.
 pub const EMBEDDED: &[(&str, &str)] = embed! {
     "common/field"
+    "common/heat"
     "common/height_filtered"
     "common/height_loaded"
+    "common/legend"
     "common/noise"
     "common/region"
     "common/view"
@@ -32,10 +34,14 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "present"
     "surface/albedo_brick"
     "surface/albedo_cobble"
+    "surface/albedo_glass"
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/channels"
     "surface/frame"
+    "surface/light_ggx"
+    "surface/light_phong"
+    "surface/light_probe"
     "surface/matter"
     "surface/probe"
     "surface/ray"
@@ -44,11 +50,16 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/shadow_hard"
     "surface/shadow_none"
     "surface/shadow_pom_soft"
+    "surface/sky"
     "surface/surface"
     "surface/trace_exact"
     "surface/trace_normal"
     "surface/trace_pom"
     "surface/traversal"
+    "surface/transparent"
+    "surface/truth_exact"
+    "surface/truth_none"
+    "surface/views"
 };
 
 /// Why WGSL did not become a module. The message keeps naga's annotated source.

@@ -42,6 +42,18 @@ impl Recorder<'_> {
 
     /// Runs `record` in a render pass of this name, which overwrites the whole target.
     pub fn render(&mut self, name: &str, target: &wgpu::TextureView, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+        self.render_onto(name, target, false, record);
+    }
+
+    /// Runs `record` in a render pass of this name, which adds to what the target holds, or overwrites all of it.
+    pub fn render_onto(
+        &mut self,
+        name: &str,
+        target: &wgpu::TextureView,
+        keeps: bool,
+        record: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
+        let load = if keeps { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::BLACK) };
         self.pass(name, |encoder, query| {
             record(&mut encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(name),
@@ -49,7 +61,7 @@ impl Recorder<'_> {
                     view: target,
                     depth_slice: None,
                     resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
                 timestamp_writes: query.render_pass_timestamp_writes(),
                 ..Default::default()

@@ -17,8 +17,8 @@ use crate::gpu::{Gpu, PassTime, Readback, Timer};
 use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
+use crate::surface::Channels;
 use crate::surface::channels::Channel;
-use crate::surface::{Channels, Shows};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
 const WARMUP_FRAMES: u64 = 5;
@@ -123,7 +123,8 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         let (count, radius) = (options.stamps, options.stamp_radius);
         strokes.presses.extend(stroke::stress_discs(scene.seed, number, count, radius, scene.field.size));
         let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+        let input =
+            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
         let mut encoder = gpu.encoder("stress");
         let recording = Instant::now();
         frame.record(&gpu, &mut encoder, &input, Some(picture.view()))?;

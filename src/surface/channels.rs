@@ -2,7 +2,7 @@
 //!
 //! A compute pass, since all channels together are 48 bytes a pixel and a render pass may write 32 by WebGPU's default limits.
 
-use super::{Albedo, Shadow, Technique, View, ViewSet, bind_field, constants, field_layout, parts, view};
+use super::{Albedo, Look, Shadow, Technique, View, ViewSet, bind_field, constants, field_layout, parts, view};
 use crate::field::Field;
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
@@ -48,7 +48,7 @@ impl Channels {
         let view_layout = view::layout(gpu);
         let field_layout = field_layout(gpu);
         let output_layout = BindingLayout::new(gpu, "channels", wgpu::ShaderStages::COMPUTE, &[Binding::ReadWrite]);
-        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "channels");
+        let parts = parts(gpu.filters_r32float(), Look { albedo, ..Look::tracing(technique, shadow) }, "channels");
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let mut constants = constants(albedo);
         constants.extend([("WORKGROUP_X", f64::from(Self::WORKGROUP[0])), ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1]))]);

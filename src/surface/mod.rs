@@ -2,6 +2,9 @@
 
 pub mod channels;
 pub mod choice;
+pub mod display;
+pub mod light_probe;
+pub mod look;
 pub mod probe;
 pub mod ray_map;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
@@ -9,7 +12,10 @@ pub mod surface;
 pub mod view;
 
 pub use channels::Channels;
-pub use choice::{Albedo, Shadow, Shows, Technique};
+pub use choice::{Albedo, Shading, Shadow, Shows, Technique};
+pub use display::{Display, Split};
+pub use light_probe::LightProbe;
+pub use look::Look;
 pub use probe::Probe;
 pub use surface::Surface;
 pub use view::{View, ViewSet};
@@ -19,12 +25,26 @@ use crate::gpu::{Binding, BindingLayout, Gpu};
 
 /// The WGSL parts of everything that traces, `entry` being the part with its entry points. `filters_r32float` says whether the
 /// adapter does.
-pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albedo: Albedo, entry: &str) -> Vec<String> {
+pub fn parts(filters_r32float: bool, look: Look, entry: &str) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
+    let Look { technique, shadow, albedo, shading, .. } = look;
+    let stems = [
+        technique.stem(),
+        shadow.stem(),
+        "sky",
+        "matter",
+        "transparent",
+        albedo.stem(),
+        shading.stem(),
+        "shade",
+        look.truth_stem(),
+        "views",
+        entry,
+    ];
     let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
+        "common/heat",
         "surface/ray",
         "common/field",
         sampled,
@@ -47,7 +67,7 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Water => Vec::new(),
+        Albedo::Plain | Albedo::Water | Albedo::Glass => Vec::new(),
     }
 }
 

@@ -3,10 +3,21 @@
 use crate::camera::Camera;
 use crate::field::base;
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
-use crate::scene::{Addressing, Scene};
+use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
-use super::Shows;
+use super::Display;
 use super::ray_map::{LinearForm, RayMap, Target};
+
+/// A directional light. Twin of the WGSL struct in `shaders/common/view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "the WGSL twin documents the fields, and one place is enough")]
+pub struct ViewLight {
+    pub toward: [f32; 3],
+    pub casts_shadow: u32,
+    pub radiance: [f32; 3],
+    pub pad: u32,
+}
 
 /// What is seen, how it is traced, how it is lit. Twin of the WGSL struct in `shaders/common/view.wgsl`, where each field's meaning
 /// and unit stand.
@@ -48,14 +59,31 @@ pub struct View {
     pub ground: [f32; 3],
     pub shows: u32,
     pub tint: [f32; 3],
-    pub pad_tint: u32,
+    pub roughness: f32,
     pub image_size: [u32; 2],
-    pub pad: [u32; 2],
+    pub metallic: f32,
+    pub reflection: f32,
+    pub index: f32,
+    pub gain: f32,
+    pub light_count: u32,
+    pub background: u32,
+    pub lights: [ViewLight; LIGHTS_MAX],
 }
 
 impl View {
     /// What `camera` sees of `scene` at a time, in a picture of `image_size` traced pixels.
-    pub fn new(scene: &Scene, camera: &Camera, time_seconds: f64, image_size: [u32; 2], shows: Shows) -> Self {
+    pub fn new(scene: &Scene, camera: &Camera, time_seconds: f64, image_size: [u32; 2], display: impl Into<Display>) -> Self {
+        let display = display.into();
+        let all_lights = scene.all_lights();
+        let mut lights = [ViewLight::default(); LIGHTS_MAX];
+        for (slot, light) in lights.iter_mut().zip(&all_lights) {
+            *slot = ViewLight {
+                toward: light.direction(time_seconds).as_vec3().to_array(),
+                casts_shadow: u32::from(light.casts_shadow),
+                radiance: light.colour.map(|colour| colour * light.intensity),
+                pad: 0,
+            };
+        }
         let plane_size = scene.plane_size_metres();
         let depth_metres = f64::from(scene.plane.depth_metres);
         let rays = RayMap::new(
@@ -98,22 +126,24 @@ impl View {
             sky: scene.light.sky,
             texel_metres: texel_metres as f32,
             ground: scene.light.ground,
-            shows: shows as u32,
+            shows: display.shows as u32,
             tint: scene.material.tint,
-            pad_tint: 0,
+            roughness: scene.material.roughness,
             image_size,
-            pad: [0; 2],
+            metallic: scene.material.metallic,
+            reflection: scene.material.reflection,
+            index: scene.material.refractive_index,
+            gain: display.gain,
+            light_count: all_lights.len() as u32,
+            background: scene.light.background as u32,
+            lights,
         }
     }
 }
 
-/// The unit direction toward the scene's light at a time, in the world.
+/// The unit direction toward the scene's first light at a time, in the world.
 pub fn light_direction(scene: &Scene, time_seconds: f64) -> glam::DVec3 {
-    let light = &scene.light;
-    let turned = f64::from(light.turn_degrees_per_second) * time_seconds;
-    let azimuth = (f64::from(light.azimuth_degrees) + turned).to_radians();
-    let elevation = f64::from(light.elevation_degrees).to_radians();
-    glam::DVec3::new(elevation.cos() * azimuth.cos(), elevation.sin(), elevation.cos() * azimuth.sin())
+    DirectionalLight::of(&scene.light).direction(time_seconds)
 }
 
 /// Bind group 0: the frame's uniform and its bilinear sampler.
