@@ -1,6 +1,7 @@
 //! One frame: from what was asked to radiance, top to bottom. [`Frame::record`] is the table of contents.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::camera::Camera;
 use crate::clock::Tick;
@@ -12,11 +13,12 @@ use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
 use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
+use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Display, Look, Surface, View, ViewSet, view};
+use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +29,14 @@ pub struct Start {
     pub heights: Vec<f32>,
     /// As many texels of [`crate::field::Material`].
     pub material: Vec<u32>,
+    /// The mesh that carries the relief; none: the plane.
+    pub mesh: Option<Mesh>,
 }
 
 impl Start {
-    /// The start of a scene whose base has these heights.
-    pub fn new(scene: &Scene, heights: Vec<f32>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights };
+    /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
+    pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = base::POST_MATERIAL;
@@ -52,6 +56,13 @@ pub struct FrameInput<'a> {
     pub camera: &'a Camera,
     /// What is shown of it: the picture or a view, and what is beside it.
     pub display: Display,
+}
+
+impl<'a> FrameInput<'a> {
+    /// What is seen of a scene.
+    pub fn seen(&self, scene: &'a Scene) -> Seen<'a> {
+        Seen { scene, camera: self.camera, time_seconds: self.tick.time_seconds, display: self.display }
+    }
 }
 
 /// Why there is no frame.
@@ -102,7 +113,12 @@ pub struct Frame {
     pyramid: Pyramid,
     pyramid_set: PyramidSet,
     /// One for each choice that was ever shown: switching back costs nothing.
-    surfaces: HashMap<Look, (Surface, SurfaceSet)>,
+    surfaces: HashMap<Choice, (Surface, SurfaceSet)>,
+    /// What is seen beside and instead of the bare plane; none where the plane is all.
+    stage: Option<Stage>,
+    mesh: Option<Mesh>,
+    /// The display whose pipelines were built last.
+    built_for: Option<Display>,
     present: Present,
     radiance: Texture<Radiance>,
     present_set: PresentSet,
@@ -163,6 +179,9 @@ impl Frame {
             pyramid,
             pyramid_set,
             surfaces: HashMap::new(),
+            stage: None,
+            mesh: start.mesh.clone(),
+            built_for: None,
             present,
             radiance,
             present_set,
@@ -171,7 +190,7 @@ impl Frame {
             traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
-        frame.build_surfaces(gpu, &Display::default())?;
+        frame.build_surface(gpu)?;
         Ok(frame)
     }
 
@@ -191,9 +210,14 @@ impl Frame {
     ///
     /// A shader does not compile: the frame goes on with the passes it had.
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        let look = Look::of(&self.scene, &Display::default());
         let _ = gpu.take_error();
-        let surface = Surface::new(gpu, &self.view_layout, look)?;
+        let display = self.built_for.unwrap_or_default();
+        let mut surfaces = HashMap::new();
+        for choice in self.sides(&display).iter().map(Side::choice) {
+            let surface = Surface::new(gpu, &self.view_layout, choice)?;
+            let set = surface.bind(gpu, &self.field);
+            surfaces.insert(choice, (surface, set));
+        }
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
@@ -201,9 +225,13 @@ impl Frame {
         if let Some(message) = gpu.take_error() {
             return Err(ShaderError::Unfit(message));
         }
+        if let Some(stage) = &mut self.stage {
+            stage.forget_pipelines();
+            stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
+        }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
-        let set = surface.bind(gpu, &self.field);
-        self.surfaces = HashMap::from([(look, (surface, set))]);
+        self.built_for = None;
+        self.surfaces = surfaces;
         (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
@@ -223,7 +251,7 @@ impl Frame {
         debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
         check_limits(gpu, scene, self.image_size)?;
         let before = std::mem::replace(&mut self.scene, scene.clone());
-        if let Err(error) = self.build_surfaces(gpu, &Display::default()) {
+        if let Err(error) = self.build_surface(gpu) {
             self.scene = before;
             return Err(error.into());
         }
@@ -256,24 +284,73 @@ impl Frame {
     fn retarget(&mut self, gpu: &Gpu) {
         self.radiance = Texture::new(gpu, traced_size(&self.scene, self.image_size));
         self.present_set = self.present.bind(gpu, &self.radiance.view);
+        if let Some(stage) = &mut self.stage {
+            stage.resize(gpu, traced_size(&self.scene, self.image_size));
+        }
     }
 
-    /// The sides of what is shown: the scene as it is, and beyond the divider as the split has it.
-    fn sides(&self, display: &Display) -> (Look, Option<Look>) {
-        let right = display.split.as_ref().map(|split| Look::of(&split.scene(&self.scene), &split.shows.into()));
-        (Look::of(&self.scene, display), right)
+    /// What is seen of the scene on each side of what is shown.
+    fn sides(&self, display: &Display) -> Vec<Side> {
+        let [width, _] = traced_size(&self.scene, self.image_size);
+        let side = |name, scene, shows, columns| Side { name, scene, display: Display { shows, ..*display }, columns };
+        match (display.divider(self.image_size[0], self.scene.trace.supersampling), &display.split) {
+            // Two looks at the same instant of the same field, each with a time of its own.
+            (Some(column), Some(split)) => vec![
+                side(SIDES[0], self.scene.clone(), display.shows, 0..column),
+                side(SIDES[1], split.scene(&self.scene), split.shows, column..width),
+            ],
+            _ => vec![side("surface", self.scene.clone(), display.shows, 0..width)],
+        }
     }
 
-    fn build_surfaces(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
-        let (left, right) = self.sides(display);
-        for look in std::iter::once(left).chain(right) {
-            if !self.surfaces.contains_key(&look) {
-                let surface = Surface::new(gpu, &self.view_layout, look)?;
+    /// Builds what a scene needs, and puts its mesh on the stage.
+    fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+        if Stage::is_needed(&self.scene) {
+            self.set_stage(gpu);
+        } else {
+            self.stage = None;
+        }
+        self.build_sides(gpu, &Display::default())
+    }
+
+    /// Builds what each side of what is shown needs and is not there yet.
+    fn build_sides(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        for (index, side) in self.sides(display).iter().enumerate() {
+            if let Some(stage) = &mut self.stage {
+                stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
+                continue;
+            }
+            let choice = side.choice();
+            if !self.surfaces.contains_key(&choice) {
+                let surface = Surface::new(gpu, &self.view_layout, choice)?;
                 let set = surface.bind(gpu, &self.field);
-                self.surfaces.insert(look, (surface, set));
+                self.surfaces.insert(choice, (surface, set));
             }
         }
+        self.built_for = Some(*display);
         Ok(())
+    }
+
+    /// The same, unless it was the last that was built.
+    fn build_for(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        if self.built_for != Some(*display) { self.build_sides(gpu, display) } else { Ok(()) }
+    }
+
+    fn set_stage(&mut self, gpu: &Gpu) {
+        let size = traced_size(&self.scene, self.image_size);
+        let mesh = self.mesh.clone().or_else(|| {
+            let plane = || Shape::Plane.mesh(self.scene.plane_size_metres().map(|metres| metres as f32));
+            self.scene.trace.shell.then(plane)
+        });
+        match &mut self.stage {
+            Some(stage) => stage.set_mesh(gpu, mesh),
+            None => self.stage = Some(Stage::new(gpu, &self.field, mesh, size)),
+        }
+    }
+
+    /// The stage on which the scene is seen, where it needs one.
+    pub fn stage(&self) -> Option<&Stage> {
+        self.stage.as_ref()
     }
 
     /// The scene that it shows.
@@ -320,7 +397,7 @@ impl Frame {
             self.dirty.add(region, self.field.size);
         }
         let Some(target) = target else { return Ok(()) };
-        self.build_surfaces(gpu, &input.display)?;
+        self.build_for(gpu, &input.display)?;
         // Derive what depends on the layers, where they changed.
         let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
         self.traffic.derived_texels = changed.iter().map(Region::area).sum();
@@ -353,7 +430,7 @@ impl Frame {
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
     ) -> Result<(), ShaderError> {
-        self.build_surfaces(gpu, &input.display)?;
+        self.build_for(gpu, &input.display)?;
         let set = present.bind(gpu, &self.radiance.view);
         self.show(&mut Recorder { gpu, encoder, timer: &self.timer }, (present, &set), input, target);
         Ok(())
@@ -384,36 +461,30 @@ impl Frame {
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
     ) {
-        let FrameInput { tick, camera, display, .. } = input;
         let traced = traced_size(&self.scene, self.image_size);
-        let supersampling = self.scene.trace.supersampling;
-        let (left, right) = self.sides(display);
-        let side = |recorder: &mut Recorder<'_>, name, look, view_set: &ViewSet, scene: &Scene, shows, columns| {
-            let Some((surface, surface_set)) = self.surfaces.get(&look) else {
+        let views = [&self.view_set, &self.right_view_set];
+        for (index, side) in self.sides(&input.display).into_iter().enumerate() {
+            let seen = Seen { display: side.display, ..input.seen(&side.scene) };
+            if let Some(stage) = &self.stage {
+                stage.record(recorder, side.name, index, &seen, &self.radiance.view, side.columns);
+            } else if let Some((surface, surface_set)) = self.surfaces.get(&side.choice()) {
+                let view = View::new(&side.scene, input.camera, input.tick.time_seconds, traced, side.display);
+                views[index].uniform.write(recorder.gpu, &view);
+                surface.record(recorder, side.name, views[index], surface_set, &self.radiance.view, side.columns);
+            } else {
                 unreachable!("whoever records builds the surfaces of what it shows first")
-            };
-            let view = View::new(scene, camera, tick.time_seconds, traced, Display { shows, ..*display });
-            view_set.uniform.write(recorder.gpu, &view);
-            surface.record(recorder, name, view_set, surface_set, &self.radiance.view, columns);
-        };
-        let divider = display.divider(self.image_size[0], supersampling);
-        match (divider, right, &display.split) {
-            (Some(column), Some(right), Some(split)) => {
-                // Two looks at the same instant of the same field, each with a time of its own.
-                side(recorder, SIDES[0], left, &self.view_set, &self.scene, display.shows, 0..column);
-                let scene = split.scene(&self.scene);
-                side(recorder, SIDES[1], right, &self.right_view_set, &scene, split.shows, column..traced[0]);
             }
-            _ => side(recorder, "surface", left, &self.view_set, &self.scene, display.shows, 0..traced[0]),
         }
-        present.record(recorder, present_set, supersampling, display, self.image_size[0], target);
+        let supersampling = self.scene.trace.supersampling;
+        present.record(recorder, present_set, supersampling, &input.display, self.image_size[0], target);
     }
 
     /// Bytes of GPU memory of every texture.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
-        self.field.memory_bytes() + self.radiance.memory_bytes() + 4 * width * height
+        let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
+        self.field.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
@@ -434,6 +505,21 @@ impl Frame {
         // A step reads a node or a sample; a shaded pixel its four corners, its normal and its material; radiance is written
         // once and read once.
         traced[0] * traced[1] * (4.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
+    }
+}
+
+/// One side of what is shown: all of it, where there is no divider.
+struct Side {
+    name: &'static str,
+    scene: Scene,
+    display: Display,
+    /// Of the traced picture.
+    columns: Range<u32>,
+}
+
+impl Side {
+    fn choice(&self) -> Choice {
+        Choice::of(&self.scene).showing(self.display.shows)
     }
 }
 

@@ -14,9 +14,11 @@ use rilievo::present::{PresentParams, PresentSide};
 use rilievo::surface::channels::Channel;
 use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
+use rilievo::surface::raster::{Geometry, RasterVertex};
 use rilievo::surface::ray_map::LinearForm;
-use rilievo::surface::view::ViewLight;
-use rilievo::surface::{self, Albedo, Look, Shading, Shadow, Shows, Technique, View};
+use rilievo::surface::shell::ShellTriangle;
+use rilievo::surface::view::{Ball, ViewLight};
+use rilievo::surface::{self, Albedo, Choice, Shading, Shadow, Shows, Technique, View};
 use wgpu::naga;
 
 /// Every composition that the program can ask for.
@@ -34,21 +36,24 @@ fn compositions() -> Vec<Vec<String>> {
         for &technique in Technique::ALL {
             for &shadow in Shadow::ALL {
                 for &albedo in Albedo::ALL {
-                    let look = Look { albedo, ..Look::tracing(technique, shadow) };
+                    let choice = Choice { albedo, ..Choice::tracing(technique, shadow) };
                     for entry in ["surface", "channels", "probe"] {
-                        all.push(surface::parts(filters, look, entry));
+                        all.push(surface::parts(filters, choice, &[entry]));
+                    }
+                    for geometry in Geometry::ALL {
+                        all.push(surface::parts(filters, choice, geometry.stems()));
                     }
                 }
                 // What these choose does not look into the albedo, nor the albedo into them.
                 for &shading in Shading::ALL {
-                    let look = Look { shading, with_truth: true, ..Look::tracing(technique, shadow) };
-                    all.push(surface::parts(filters, look, "surface"));
+                    let choice = Choice { shading, with_truth: true, ..Choice::tracing(technique, shadow) };
+                    all.push(surface::parts(filters, choice, &["surface"]));
                 }
             }
         }
         for &shading in Shading::ALL {
-            let look = Look { shading, ..Look::tracing(Technique::Normal, Shadow::None) };
-            all.push(surface::parts(filters, look, "light_probe"));
+            let choice = Choice { shading, ..Choice::PLAIN };
+            all.push(surface::parts(filters, choice, &["light_probe"]));
         }
     }
     all
@@ -150,15 +155,28 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 tint,
                 roughness,
                 image_size,
+                planar,
+                ball_count,
                 metallic,
                 reflection,
                 index,
                 gain,
-                light_count,
                 background,
+                light_count,
                 lights,
+                direction_x,
+                direction_y,
+                direction_z,
+                clip_from_eye,
+                eye_rest,
+                near_metres,
+                forward_world,
+                balls,
             }),
         ),
+        ("Ball", layout!(Ball { centre, radius, colour })),
+        ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
+        ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
         ("ViewLight", layout!(ViewLight { toward, casts_shadow, radiance })),
         ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
         ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
@@ -241,7 +259,7 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
 
 #[test]
 fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() {
-    let module = module(&surface::parts(true, Look::tracing(Technique::Exact, Shadow::Hard), "surface"));
+    let module = module(&surface::parts(true, Choice::PLAIN, &["surface"]));
     let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));

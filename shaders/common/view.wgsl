@@ -14,6 +14,13 @@ struct ViewLight {
     radiance: vec3f,    // that a white surface facing it has
 }
 
+// A ball beside the relief.
+struct Ball {
+    centre: vec3f,  // world, metres
+    radius: f32,
+    colour: vec3f,  // albedo, linear
+}
+
 struct View {
     // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
     // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
@@ -57,13 +64,25 @@ struct View {
     roughness: f32,              // 0 a mirror, 1 matt
 
     image_size: vec2u,           // of the traced picture, pixels
+    planar: u32,                 // 1 where a mesh's facets take their rays from the forms above
+    ball_count: u32,
     metallic: f32,               // 0 a dielectric, 1 a metal
     reflection: f32,             // how much of its surroundings the surface mirrors
     index: f32,                  // of refraction, where the surface is transparent
     gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
-    light_count: u32,            // of `lights`
     background: u32,             // what is behind everything: see surface/sky.wgsl
+    light_count: u32,
     lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
+
+    // The pixel's direction in the world, with unit length along the view axis.
+    direction_x: LinearForm,
+    direction_y: LinearForm,
+    direction_z: LinearForm,
+    clip_from_eye: mat4x4f,      // from what is counted from the eye, in the world's axes; depth is near over distance
+    eye_rest: vec3f,             // what eye_world lacks
+    near_metres: f32,
+    forward_world: vec3f,        // unit, along the view axis
+    balls: array<Ball, 4>,
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -30,7 +30,7 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let inside = refract(-point.toward_eye, normal, 1.0 / view.index);
 
     // To the back, which is level, and out of it; light that meets it too aslant stays inside, and shows the sky.
-    let up = frame_normal();
+    let up = frame_normal(point.lattice);
     let falls = max(-dot(inside, up), 0.05);
     let path = point.height * view.depth_metres / falls;
     let back = point.world + inside * path;

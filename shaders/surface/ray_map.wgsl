@@ -33,10 +33,11 @@ fn pixel_ray(position: vec2f) -> PixelRay {
 // The unit direction into which a point of the picture looks, world.
 fn pixel_direction(position: vec2f) -> vec3f {
     let pixel = vec3f(position, 1.0);
-    let travel = vec2f(ray_map_evaluate(view.travel_x, pixel), ray_map_evaluate(view.travel_y, pixel));
-    let along = travel * view.plane_size_metres / (vec2f(view.field_size) * view.depth_metres);
-    let down = ray_map_evaluate(view.denominator, pixel);
-    return normalize(view.u_world * along.x + view.v_world * along.y - view.up_world * down);
+    return normalize(vec3f(
+        ray_map_evaluate(view.direction_x, pixel),
+        ray_map_evaluate(view.direction_y, pixel),
+        ray_map_evaluate(view.direction_z, pixel),
+    ));
 }
 
 // Whether the pixel looks down upon the plane's own plane, beyond the near distance.

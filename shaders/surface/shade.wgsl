@@ -1,11 +1,15 @@
 // What a point of the surface looks like: what each light, the sky and the surroundings add.
 //
-// Composed after a trace, a shadow, the sky, an albedo and a light model.
+// Composed after a trace, a shadow, the sky, the balls, an albedo and a light model.
 
 // A light lower above the reference surface than this, as a sine, is not up: its way would have no end.
 const LIGHT_LEVEL: f32 = 1e-4;
 
+// How far under the surface a ray must come into a shell to have come through its side: rounding is a thousandth of that.
+const CUT_DEPTH: f32 = 1e-3;
+
 struct Shaded {
+    ray: Ray,
     hit: Hit,
     height: f32,        // of the field at the hit's lattice position
     normal_world: vec3f,
@@ -13,21 +17,22 @@ struct Shaded {
     radiance: vec3f,
 }
 
-// The world normal at a lattice position.
-fn normal_at(lattice: vec2f) -> vec3f {
-    return frame_normal_of(normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz));
+// The world normal at a lattice position, where the reference surface has the normal `reference`.
+fn normal_at(lattice: vec2f, reference: vec3f) -> vec3f {
+    return relief_normal(normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz), reference);
 }
 
-// Share of each light that reaches a point of the surface; 0 where the surface faces away from it.
-fn visibilities_at(lattice: vec2f, height: f32, normal_world: vec3f) -> vec4f {
+// Share of each light that reaches a point of the surface at a place in the world; 0 where the surface faces away from it. On a
+// cut through the relief nothing but the balls casts shadows.
+fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, reference: vec3f, is_cut: bool) -> vec4f {
     var arrives = vec4f(0.0);
     for (var i = 0u; i < view.light_count; i++) {
         let source = view_buffer.lights[i];
-        if dot(normal_world, source.toward) > 0.0 && dot(frame_normal(), source.toward) > LIGHT_LEVEL {
-            let direction = field_direction(source.toward);
-            var share = 1.0;
-            if source.casts_shadow == 1u {
-                share = shadow(shadow_ray(lattice, direction.xy / direction.z, height));
+        if dot(normal, source.toward) > 0.0 && (is_cut || dot(reference, source.toward) > LIGHT_LEVEL) {
+            var share = balls_visibility(world, source.toward);
+            if share > 0.0 && source.casts_shadow == 1u && !is_cut {
+                let direction = field_direction(source.toward, reference);
+                share *= shadow(shadow_ray(lattice, direction.xy / direction.z, height));
             }
             arrives[i] = share;
         }
@@ -60,22 +65,28 @@ fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
 }
 
 fn shade(ray: Ray) -> Shaded {
-    let hit = trace(ray);
-    let height = load_surface(hit.lattice);
-    let normal = normal_at(hit.lattice);
-    let lit = visibilities_at(hit.lattice, height, normal);
+    return shade_hit(ray, trace(ray));
+}
 
+fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
+    let height = load_surface(hit.lattice);
     let position = world_of(hit.lattice, hit.height);
+    // A ray that came into a shell through its side, under the surface, sees the side itself.
+    let is_cut = hit.t == 0.0 && height - hit.height > CUT_DEPTH && any(frame.cut != vec3f(0.0));
+    let reference = select(frame_normal(hit.lattice), frame.cut, is_cut);
+    let normal = select(normal_at(hit.lattice, reference), frame.cut, is_cut);
+    let lit = visibilities_at(hit.lattice, height, position, normal, reference, is_cut);
     let toward_eye = normalize(view.eye_world - position);
-    let level = dot(normal, frame_normal());
-    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, level, toward_eye, lit.x));
+    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x));
 
     let open = sky_visibility(hit.lattice, height);
-    let mirrored = sky_blurred(reflect(-toward_eye, normal), light_roughness(matter));
-    var radiance = matter.glow + light_around(matter, dot(normal, toward_eye), open * sky_mean(normal), open * mirrored);
+    let reflected = reflect(-toward_eye, normal);
+    let mirrored = sky_blurred(reflected, light_roughness(matter)) * balls_visibility(position, reflected);
+    var radiance = matter.glow + light_around(matter, dot(normal, toward_eye), open * sky_mean(normal), open * mirrored)
+        + balls_mirrored(position, normal, toward_eye, max(matter.specular, matter.reflection));
     for (var i = 0u; i < view.light_count; i++) {
         let source = view_buffer.lights[i];
         radiance += lit[i] * source.radiance * light(matter, normal, toward_eye, source.toward);
     }
-    return Shaded(hit, height, normal, lit.x, radiance);
+    return Shaded(ray, hit, height, normal, lit.x, radiance);
 }

@@ -11,7 +11,7 @@ fn transparent_mirror(index: f32, cosine: f32) -> f32 {
 // What it mirrors. What would be reflected into the relief is seen as if by its next slope: upward.
 fn transparent_mirrored(point: SurfacePoint) -> vec3f {
     var reflected = reflect(-point.toward_eye, point.normal_world);
-    let up = frame_normal();
+    let up = frame_normal(point.lattice);
     reflected += max(-2.0 * dot(reflected, up), 0.0) * up;
     return sky(reflected) + sky_suns(reflected);
 }

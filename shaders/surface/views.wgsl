@@ -17,7 +17,7 @@ const VIEWS_STEPS: u32 = 64u;
 const VIEWS_LEVELS: u32 = 12u;
 
 // The radiance of the picture or of the view that was chosen instead.
-fn shown(ray: Ray, shaded: Shaded) -> vec3f {
+fn shown(shaded: Shaded) -> vec3f {
     // A ray that gave up is never silently a hit.
     if shaded.hit.status == CAPPED {
         return vec3f(4.0, 0.0, 4.0);
@@ -27,17 +27,17 @@ fn shown(ray: Ray, shaded: Shaded) -> vec3f {
         case SHOW_NORMAL: {
             // As a normal map has it: u to the right, v down.
             let along = vec3f(dot(shaded.normal_world, normalize(frame.along_u)), dot(shaded.normal_world, normalize(frame.along_v)), 0.0);
-            return vec3f(along.x, -along.y, dot(shaded.normal_world, frame_normal())) * 0.5 + 0.5;
+            return vec3f(along.x, -along.y, dot(shaded.normal_world, frame_normal(shaded.hit.lattice))) * 0.5 + 0.5;
         }
         case SHOW_VISIBILITY: { return vec3f(shaded.visibility); }
         case SHOW_STEPS: { return heat(f32(shaded.hit.steps) / f32(VIEWS_STEPS)); }
         case SHOW_UVOFFSET: {
-            let cells = (shaded.hit.lattice - ray_at(ray, 0.0)) * vec2f(1.0, -1.0);
+            let cells = (shaded.hit.lattice - ray_at(shaded.ray, 0.0)) * vec2f(1.0, -1.0);
             let depths = cells * view.texel_metres / view.depth_metres;
             return vec3f(0.5 + 0.5 * depths / (1.0 + abs(depths)), 0.5);
         }
         case SHOW_LEVEL: { return heat(f32(hit_level) / f32(VIEWS_LEVELS)); }
-        case SHOW_ERROR: { return heat(truth_error(ray, shaded.hit) * view.gain); }
+        case SHOW_ERROR: { return heat(truth_error(shaded.ray, shaded.hit) * view.gain); }
         default: { return shaded.radiance; }
     }
 }

@@ -42,14 +42,16 @@ impl Recorder<'_> {
 
     /// Runs `record` in a render pass of this name, which overwrites the whole target.
     pub fn render(&mut self, name: &str, target: &wgpu::TextureView, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
-        self.render_onto(name, target, false, record);
+        self.render_onto(name, target, None, false, record);
     }
 
-    /// Runs `record` in a render pass of this name, which adds to what the target holds, or overwrites all of it.
+    /// The same with a depth buffer, which begins at 0, infinitely far, if there is one; `keeps` says that it adds to what the
+    /// target holds.
     pub fn render_onto(
         &mut self,
         name: &str,
         target: &wgpu::TextureView,
+        depth: Option<&wgpu::TextureView>,
         keeps: bool,
         record: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
@@ -63,6 +65,7 @@ impl Recorder<'_> {
                     resolve_target: None,
                     ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
+                depth_stencil_attachment: depth.map(depth_attachment),
                 timestamp_writes: query.render_pass_timestamp_writes(),
                 ..Default::default()
             }));
@@ -85,6 +88,15 @@ impl Recorder<'_> {
         let recorded = std::mem::replace(self.encoder, self.gpu.encoder("alone"));
         self.gpu.queue.submit([recorded.finish()]);
         time(self.gpu)
+    }
+}
+
+/// A depth buffer that begins at 0, infinitely far, and is not kept.
+pub fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+        stencil_ops: None,
     }
 }
 

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use super::{Look, View, ViewSet, bind_field, field_layout, parts, view};
+use super::{Choice, View, ViewSet, bind_field, field_layout, parts, view};
 use crate::field::Field;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 use crate::scene::Addressing;
@@ -72,12 +72,12 @@ impl LightProbe {
     /// # Errors
     ///
     /// The shader does not compile.
-    pub fn new(gpu: &Gpu, look: Look) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, choice: Choice) -> Result<Self, ShaderError> {
         let view_layout = view::layout(gpu);
         let field_layout = field_layout(gpu);
         let list_layout =
             BindingLayout::new(gpu, "light probe", wgpu::ShaderStages::COMPUTE, &[Binding::Read, Binding::ReadWrite]);
-        let parts = parts(gpu.filters_r32float(), look, "light_probe");
+        let parts = parts(gpu.filters_r32float(), choice, &["light_probe"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let groups = [Some(&view_layout), Some(&field_layout), Some(&list_layout)];
         let constants = [("WORKGROUP", f64::from(Self::WORKGROUP))];

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Look, ViewSet, bind_field, constants, field_layout, parts};
+use super::{Choice, ViewSet, bind_field, constants, field_layout, parts};
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Contract, Gpu, Recorder, Role, ShaderError};
 
@@ -40,9 +40,9 @@ impl Surface {
     /// # Errors
     ///
     /// The shader does not compile.
-    pub fn new(gpu: &Gpu, view: &BindingLayout, look: Look) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, view: &BindingLayout, choice: Choice) -> Result<Self, ShaderError> {
         let layout = field_layout(gpu);
-        let parts = parts(gpu.filters_r32float(), look, "surface");
+        let parts = parts(gpu.filters_r32float(), choice, &["surface"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let module = gpu.shaders.module(gpu, "surface", &parts)?;
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -50,7 +50,7 @@ impl Surface {
             bind_group_layouts: &[Some(&view.layout), Some(&layout.layout)],
             immediate_size: 0,
         });
-        let constants = constants(look.albedo);
+        let constants = constants(choice.albedo);
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("surface"),
             layout: Some(&pipeline_layout),
@@ -92,7 +92,7 @@ impl Surface {
         columns: Range<u32>,
     ) {
         let height = radiance.texture().height();
-        recorder.render_onto(name, radiance, columns.start > 0, |pass| {
+        recorder.render_onto(name, radiance, None, columns.start > 0, |pass| {
             pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, height);
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &view.group, &[]);

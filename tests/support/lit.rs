@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rilievo::gpu::Gpu;
 use rilievo::surface::light_probe::{Lit, Matter};
-use rilievo::surface::{LightProbe, Look, Shading, Shadow, Technique};
+use rilievo::surface::{Choice, LightProbe, Shading};
 
 use super::fields::Random;
 use super::gpu::wait_for;
@@ -34,8 +34,8 @@ pub fn random(random: &mut Random) -> Lit {
 
 /// What the shader makes of them.
 pub fn light(gpu: &Gpu, shading: Shading, lit: &[Lit]) -> Vec<DVec3> {
-    let look = Look { shading, ..Look::tracing(Technique::Normal, Shadow::None) };
-    let probe = LightProbe::new(gpu, look).expect("the shader compiles");
+    let choice = Choice { shading, ..Choice::PLAIN };
+    let probe = LightProbe::new(gpu, choice).expect("the shader compiles");
     let values: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&wait_for(gpu, &probe.light(gpu, lit)));
     values.into_iter().map(|[x, y, z, _]| DVec3::new(x.into(), y.into(), z.into())).collect()
 }

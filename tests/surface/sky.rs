@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rilievo::reference::sky::Sky;
 use rilievo::surface::light_probe::Lit;
-use rilievo::surface::{LightProbe, Look, Shadow, Technique, View};
+use rilievo::surface::{Choice, LightProbe, View};
 
 use crate::support::fields::Random;
 use crate::support::gpu::{gpu, wait_for};
@@ -19,7 +19,7 @@ const SKIES: [Sky; 3] = [
 #[test]
 fn the_shader_shows_the_sky_of_the_reference() {
     let Some(gpu) = gpu() else { return };
-    let probe = LightProbe::new(gpu, Look::tracing(Technique::Normal, Shadow::None)).expect("the shader compiles");
+    let probe = LightProbe::new(gpu, Choice::PLAIN).expect("the shader compiles");
     let mut random = Random::new(101);
     let list: Vec<Lit> = (0..10_000)
         .map(|i| {
