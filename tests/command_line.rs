@@ -54,6 +54,8 @@ fn arguments_alone_exit_with_2() {
         (&["--sceen", "relief"][..], "--scene"),
         (&["capture"], "--out"),
         (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal, pom and exact?"),
+        (&["capture", "--out", "out", "--view", "stpes"], "did you mean `steps`"),
+        (&["stress", "--split", "pom:soft"], "unknown shadow `soft`"),
         (&["capture", "--out", "out", "--shadow", "hrad"], "did you mean `hard`"),
         (&["capture", "--out", "out", "--size", "0x480"], "--size"),
         (&["capture", "--out", "out", "--frames", "0"], "--frames"),

@@ -208,7 +208,7 @@ fn shell(varyings: ShellVaryings) -> ColourAndDepth {
     if way.is_empty || hit.status == MISS {
         discard;
     }
-    let shaded = shade_hit(hit);
+    let shaded = shade_hit(way.ray, hit);
     return ColourAndDepth(vec4f(shown(shaded), 1.0), raster_depth(world_of(shaded.hit.lattice, shaded.hit.height)));
 }
 
@@ -220,6 +220,6 @@ fn shell_channel(varyings: ShellVaryings) -> ColourAndDepth {
     if way.is_empty || hit.status == MISS {
         discard;
     }
-    let shaded = shade_hit(hit);
+    let shaded = shade_hit(way.ray, hit);
     return ColourAndDepth(channel_part(channel_of(shaded)), raster_depth(world_of(shaded.hit.lattice, shaded.hit.height)));
 }

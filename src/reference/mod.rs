@@ -5,6 +5,8 @@
 
 pub mod balls;
 pub mod compose;
+pub mod light_ggx;
+pub mod light_phong;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
@@ -12,6 +14,7 @@ pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
 pub mod shell;
+pub mod sky;
 pub mod stamp;
 pub mod trace_exact;
 pub mod trace_normal;

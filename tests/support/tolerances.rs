@@ -131,3 +131,24 @@ pub const SOFT_VARIATION: f64 = 1.01;
 /// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
 /// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
 pub const COMPARED_P99: f64 = 1e-3;
+/// A light model against its f64 reference, of the largest value in the list: some thirty operations at 2⁻²⁴, and a power whose
+/// base is off by one rounding, times an exponent of up to 512.
+pub const LIGHT: f64 = 4e-5;
+
+/// Reciprocity of a light model in f64: rounding alone.
+pub const RECIPROCITY: f64 = 1e-12;
+
+/// The integral of GGX over the hemisphere, by a quadrature of 4,000 angles that follow the lobe.
+pub const DISTRIBUTION_INTEGRAL: f64 = 1e-6;
+
+/// What a directional albedo may exceed 1 by: the error of its quadrature.
+pub const FURNACE: f64 = 1e-4;
+
+/// Single-scatter loss against what the shader's header states: its last digit.
+pub const FURNACE_STATED: f64 = 1e-3;
+
+/// The sky against its f64 reference, and its mean against the colours that it is made of: the horizon's soft edge lends each
+/// half a ten-thousandth of the other.
+pub const SKY: f64 = 1e-6;
+/// See [`SKY`].
+pub const SKY_MEAN: f64 = 2e-4;
