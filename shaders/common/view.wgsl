@@ -47,8 +47,10 @@ struct View {
     ground: vec3f,               // radiance from below
     shows: u32,                  // what the picture shows: see surface/shade.wgsl
     tint: vec3f,
+    light_radius: f32,           // tangent of half the angle that the light's disc spans
 
     image_size: vec2u,           // of the traced picture, pixels
+    area_samples: u32,           // points of the light's disc
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -114,7 +114,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --out DIR", "--frames"),
         ("live --technique exat", "did you mean `exact`, of normal, pom and exact?"),
         ("live --technique", "--technique"),
-        ("live --shadow soft", "none, pom-soft and hard"),
+        ("live --shadow soft", "none, steep, hard, pom-soft, cone and area"),
         ("live --backend vulcan", "did you mean `vulkan`"),
         ("live --adapter=", "--adapter"),
         ("capture --out DIR --channels color,hight", "did you mean `height`"),

@@ -4,12 +4,16 @@
 //! ways, to go unnoticed. Heights are f32, as the textures hold them; everything computed from them is f64.
 
 pub mod compose;
+pub mod light_disc;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
+pub mod shadow_area;
+pub mod shadow_cone;
 pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
+pub mod shadow_steep;
 pub mod stamp;
 pub mod trace_exact;
 pub mod trace_normal;

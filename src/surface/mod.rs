@@ -31,6 +31,7 @@ pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albed
         "surface/frame",
         "surface/ray_map",
         "surface/traversal",
+        "surface/light_disc",
     ]
     .map(str::to_owned)
     .to_vec();

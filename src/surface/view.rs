@@ -48,9 +48,10 @@ pub struct View {
     pub ground: [f32; 3],
     pub shows: u32,
     pub tint: [f32; 3],
-    pub pad_tint: u32,
+    pub light_radius: f32,
     pub image_size: [u32; 2],
-    pub pad: [u32; 2],
+    pub area_samples: u32,
+    pub pad: u32,
 }
 
 impl View {
@@ -100,9 +101,10 @@ impl View {
             ground: scene.light.ground,
             shows: shows as u32,
             tint: scene.material.tint,
-            pad_tint: 0,
+            light_radius: scene.light.half_angle_degrees.to_radians().tan(),
             image_size,
-            pad: [0; 2],
+            area_samples: scene.trace.area_samples,
+            pad: 0,
         }
     }
 }

@@ -4,5 +4,6 @@
 pub mod desktop;
 pub mod fields;
 pub mod gpu;
+pub mod lights;
 pub mod rays;
 pub mod tolerances;

@@ -1,9 +1,13 @@
 //! How it is seen.
 
+mod light_disc;
 mod ray_map;
+mod shadow_area;
+mod shadow_cone;
 mod shadow_hard;
 mod shadow_none;
 mod shadow_pom_soft;
+mod shadow_steep;
 mod trace_exact;
 mod trace_normal;
 mod trace_pom;
