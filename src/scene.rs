@@ -225,11 +225,13 @@ pub struct Trace {
     pub pom_samples_min: u32,
     /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
-    /// Samples of `pom-soft` along the light ray.
+    /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
     pub shadow_samples: u32,
     /// Strength of `pom-soft`: how fast a blocker darkens.
     pub shadow_strength: f32,
-    /// Nodes that `exact` and `hard` may visit before they give up and say so.
+    /// Points of the light's disc to which `area` sends a ray each.
+    pub area_samples: u32,
+    /// Nodes that one ray of `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
@@ -247,6 +249,8 @@ pub struct Light {
     pub azimuth_degrees: f32,
     /// Direction toward the light: degrees above the plane.
     pub elevation_degrees: f32,
+    /// Half the angle that its disc spans, degrees: how soft `cone` and `area` shadows are. The sun's is 0.27.
+    pub half_angle_degrees: f32,
     /// Its colour, linear.
     #[serde(deserialize_with = "exactly")]
     pub colour: [f32; 3],
@@ -403,6 +407,7 @@ impl Default for Trace {
             pom_samples_max: 50,
             shadow_samples: 16,
             shadow_strength: 4.0,
+            area_samples: 64,
             step_cap: 4096,
             supersampling: 1,
             displaced_depth: false,
@@ -416,6 +421,7 @@ impl Default for Light {
         Self {
             azimuth_degrees: 215.0,
             elevation_degrees: 40.0,
+            half_angle_degrees: 1.5,
             colour: [1.0, 0.95, 0.88],
             intensity: 1.35,
             sky: [0.30, 0.37, 0.47],

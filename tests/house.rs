@@ -68,9 +68,17 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
 
 /// Techniques and shadows are one WGSL file each and share the passes that run them: they have no Rust of their own.
 fn needs_rust(part: &str) -> bool {
-    !["surface/trace_", "surface/shadow_", "surface/traversal", "surface/light_ggx", "surface/light_phong", "surface/sky"]
-        .iter()
-        .any(|prefix| part.starts_with(prefix))
+    ![
+        "surface/trace_",
+        "surface/shadow_",
+        "surface/traversal",
+        "surface/light_disc",
+        "surface/light_ggx",
+        "surface/light_phong",
+        "surface/sky",
+    ]
+    .iter()
+    .any(|prefix| part.starts_with(prefix))
 }
 
 #[test]

@@ -160,6 +160,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 gain,
                 background,
                 light_count,
+                light_radius,
+                area_samples,
                 lights,
                 direction_x,
                 direction_y,

@@ -126,7 +126,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --split pmo", "did you mean `pom`"),
         ("live --split pom:hrad", "did you mean `hard`"),
         ("live --split pom@2", "--split"),
-        ("live --shadow soft", "none, pom-soft and hard"),
+        ("live --shadow soft", "none, steep, hard, pom-soft, cone and area"),
         ("live --backend vulcan", "did you mean `vulkan`"),
         ("live --adapter=", "--adapter"),
         ("capture --out DIR --channels color,hight", "did you mean `height`"),

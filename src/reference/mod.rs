@@ -5,14 +5,18 @@
 
 pub mod balls;
 pub mod compose;
+pub mod light_disc;
 pub mod light_ggx;
 pub mod light_phong;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
+pub mod shadow_area;
+pub mod shadow_cone;
 pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
+pub mod shadow_steep;
 pub mod shell;
 pub mod sky;
 pub mod stamp;

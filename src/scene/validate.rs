@@ -14,6 +14,8 @@ pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
 pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low: false, with_high: false, unit: "degrees" };
 /// What shines: a colour, its strength.
 const RADIANCE: Range = Range::from_to(0.0, 1e4, "");
+/// Half the angle that the light's disc spans. A wider one is no disc that a plane at right angles to its centre could stand for.
+pub const LIGHT_HALF_ANGLE_DEGREES: Range = Range::above(0.0, 15.0, "degrees");
 /// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
 pub const COURANT_SQUARED_MAX: f64 = 0.49;
 
@@ -230,12 +232,14 @@ fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
     }
     number("trace.shadow_samples", trace.shadow_samples, SAMPLES)?;
     number("trace.shadow_strength", trace.shadow_strength, Range::from_to(0.0, 1000.0, ""))?;
+    number("trace.area_samples", trace.area_samples, Range::from_to(1.0, 4096.0, "samples"))?;
     number("trace.step_cap", trace.step_cap, Range::from_to(1.0, 16_777_216.0, "steps"))?;
     number("trace.supersampling", trace.supersampling, Range::from_to(1.0, 8.0, "rays along a pixel's side"))
 }
 
 fn validate_light(light: &Light) -> Result<(), SceneError> {
     validate_directional("light", &DirectionalLight::of(light))?;
+    number("light.half_angle_degrees", light.half_angle_degrees, LIGHT_HALF_ANGLE_DEGREES)?;
     numbers("light.sky", &light.sky, RADIANCE)?;
     numbers("light.ground", &light.ground, RADIANCE)
 }

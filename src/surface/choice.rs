@@ -57,10 +57,16 @@ choices! {
     Shadow {
         /// Nothing blocks the light.
         None = "none", "shadow_none", "None";
-        /// Weighted samples along the light ray (\[POM\] §3.2).
-        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// Layers of equal height toward the light, without interpolation (\[Steep\]).
+        Steep = "steep", "shadow_steep", "Steep";
         /// Any hit of the exact traversal.
         Hard = "hard", "shadow_hard", "Hard (exact)";
+        /// Weighted samples along the light ray (\[POM\] §3.2).
+        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// The light's disc in three slices, the horizon of each through the pyramid.
+        Cone = "cone", "shadow_cone", "Cone (soft)";
+        /// An exact ray to each of many points of the light's disc: the truth.
+        Area = "area", "shadow_area", "Area (truth)";
     }
 }
 

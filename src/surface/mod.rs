@@ -94,6 +94,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "surface/frame",
         "surface/ray_map",
         "surface/traversal",
+        "surface/light_disc",
     ]
     .map(str::to_owned)
     .to_vec();

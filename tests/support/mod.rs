@@ -4,6 +4,7 @@
 pub mod desktop;
 pub mod fields;
 pub mod gpu;
+pub mod lights;
 pub mod lit;
 pub mod rays;
 pub mod seen;

@@ -36,6 +36,8 @@ pub fn view(field: &HeightField) -> View {
         pom_samples_max: 50.0,
         shadow_samples: 16.0,
         shadow_strength: 4.0,
+        light_radius: 0.05,
+        area_samples: 64,
         ..View::default()
     }
 }

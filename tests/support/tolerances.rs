@@ -152,3 +152,36 @@ pub const FURNACE_STATED: f64 = 1e-3;
 pub const SKY: f64 = 1e-6;
 /// See [`SKY`].
 pub const SKY_MEAN: f64 = 2e-4;
+/// Share of receivers where `steep` may differ from its f64 reference: a layer that only just grazes, and the filter's 8 bits.
+pub const STEEP_OFF_SHARE: f64 = 2e-3;
+
+/// Share of receivers where 4,096 layers may differ from a hard shadow: blockers that stand up for less than a layer.
+pub const STEEP_HARD_SHARE: f64 = 5e-3;
+
+/// Points of the light's disc that a straight cut may have too many or too few, times their number to the power of ¼.
+pub const DISC_POINTS: f64 = 1.0;
+
+/// `area` against its f64 reference, root of the mean square: where a ray grazes, rounding decides one point of 32.
+pub const AREA_RMS: f64 = 2e-3;
+
+/// `area` with 1,024 points against the disc's ramp: a cut's too many or too few points, and the ramp of the texel that the
+/// bilinear step is wide.
+pub const AREA_RAMP: f64 = 0.01;
+
+/// `cone` against its f64 reference: rounding of a slope over the light's radius.
+pub const CONE_VISIBILITY: f64 = 5e-3;
+
+/// Share of receivers where it may differ by more.
+pub const CONE_OFF_SHARE: f64 = 5e-3;
+
+/// What rounding may add to the visibility of a blocker that grows.
+pub const CONE_ROUNDING: f64 = 1e-4;
+
+/// `cone` against the disc's ramp behind a straight step, whose bilinear edge is one texel wide.
+pub const CONE_RAMP: f64 = 0.01;
+
+/// Root of the mean square of what `cone` differs from the truth on a wall, a step and smooth terrain: the project's bar.
+pub const CONE_RMS: f64 = 0.03;
+
+/// Share of receivers to which a light of a milliradian is a point: the project's bar.
+pub const CONE_POINT_SHARE: f64 = 0.999;
