@@ -122,3 +122,10 @@ pub const SOFT_STEP: f64 = 1.0 / 64.0;
 
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
 pub const SOFT_VARIATION: f64 = 1.01;
+
+/// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
+/// MikkTSpace.
+pub const MESH_FRAME: f64 = 1e-5;
+
+/// Metres by which a position of about one metre may be off after a handful of affine maps in f32.
+pub const MESH_LENGTH: f64 = 1e-5;
