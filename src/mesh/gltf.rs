@@ -106,10 +106,14 @@ impl Reader<'_> {
         let uvs = read(&Semantic::TexCoords(0), 2)?.ok_or_else(|| {
             Unfit(format!("has no texture coordinates in {mesh}: unwrap it in the program that made it and save them too"))
         })?;
-        let normals = read(&Semantic::Normals, 3)?.unwrap_or_default();
-        let tangents = read(&Semantic::Tangents, 4)?.unwrap_or_default();
-        for (what, count) in [("texture coordinates", uvs.len()), ("normals", normals.len()), ("tangents", tangents.len())] {
-            if count != positions.len() && count > 0 {
+        let normals = read(&Semantic::Normals, 3)?;
+        let tangents = read(&Semantic::Tangents, 4)?;
+        for (what, count) in [
+            ("texture coordinates", Some(uvs.len())),
+            ("normals", normals.as_ref().map(Vec::len)),
+            ("tangents", tangents.as_ref().map(Vec::len)),
+        ] {
+            if let Some(count) = count.filter(|&count| count != positions.len()) {
                 let positions = positions.len();
                 return Err(Unfit(format!("has {count} {what} for {positions} positions in {mesh}: save it anew")));
             }
@@ -135,9 +139,9 @@ impl Reader<'_> {
         let mut piece = Piece {
             material: material_name(primitive),
             positions,
-            normals: normals.into_iter().map(Vec4::truncate).collect(),
+            normals: normals.unwrap_or_default().into_iter().map(Vec4::truncate).collect(),
             uvs: uvs.into_iter().map(|uv| Vec2::new(uv.x, uv.y)).collect(),
-            tangents: tangents.into_iter().map(Vec4::truncate).collect(),
+            tangents: tangents.unwrap_or_default().into_iter().map(Vec4::truncate).collect(),
             triangles,
             // The format: "when normals are not specified, client implementations must calculate flat normals".
             crease_cosine: f32::INFINITY,

@@ -224,7 +224,7 @@ fn bad_files_are_refused_in_a_sentence() {
 fn damaged_files_never_panic() {
     for glb in [file(json!({})).glb(), two_joints().glb()] {
         for i in 0..glb.len() {
-            for change in [0x01, 0x80, 0xff] {
+            for change in [0x01, 0x02, 0x10, 0x80, 0xff] {
                 let mut damaged = glb.clone();
                 damaged[i] ^= change;
                 if let Ok(mesh) = parse(&damaged) {
