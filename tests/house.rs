@@ -49,6 +49,7 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/matter", &["src", "reference", "tests"], "what albedos share"),
     ("surface/ray", &["src", "reference", "tests"], "two structs: their twins are the probe's"),
     ("surface/shade", &["src", "reference", "tests"], "a light model without free choices: the goldens hold it"),
+    ("surface/micropolygon", &["reference"], "over a plane its specification is reference/trace_mesh.rs"),
     ("surface/surface", &["reference", "tests"], "calls what others prove; the goldens hold it"),
     ("surface/channels", &["reference", "tests"], "calls what others prove; the captures' proof reads it"),
     ("surface/probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),

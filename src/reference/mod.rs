@@ -12,6 +12,7 @@ pub mod shadow_none;
 pub mod shadow_pom_soft;
 pub mod stamp;
 pub mod trace_exact;
+pub mod trace_mesh;
 pub mod trace_normal;
 pub mod trace_pom;
 pub mod traversal;

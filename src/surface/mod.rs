@@ -3,6 +3,7 @@
 pub mod channels;
 pub mod choice;
 pub mod facet;
+pub mod micropolygon;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;

@@ -208,6 +208,11 @@ impl Panel {
                 value(ui, &control, &mut trace.pom_samples_max, was.pom_samples_max);
                 trace.pom_samples_max = trace.pom_samples_max.max(trace.pom_samples_min);
             }
+            if trace.technique == Technique::Mesh {
+                let tip = "About how many micropolygons there are";
+                let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
+            }
             if trace.shadow == Shadow::PomSoft {
                 let tip = "Samples along the ray to the light";
                 let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
