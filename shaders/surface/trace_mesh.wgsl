@@ -42,9 +42,9 @@ fn trace(ray: Ray) -> Hit {
     let size = vec2f(view.field_size);
     let scale = f32(max(view.mesh_quads, 1u)) / size;
     let tile = select(vec2f(0.0), floor(vec2f(ray.cell) / size), view.wrap == 1u);
-    let from = (vec2f(ray.cell - vec2i(tile) * vec2i(view.field_size)) + 0.5 + ray.lattice) * scale;
-    let base = floor(from);
-    let start = from - base;
+    let origin = (vec2f(ray.cell - vec2i(tile) * vec2i(view.field_size)) + 0.5 + ray.lattice) * scale;
+    let base = floor(origin);
+    let start = origin - base;
     let travel = ray.travel * scale;
 
     // Along u, along v, along the cuts: the position that counts its lines, how it grows, and the line that comes next.
