@@ -225,6 +225,8 @@ pub struct Trace {
     pub pom_samples_min: u32,
     /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
+    /// About how many triangles `mesh` has.
+    pub mesh_triangles: u32,
     /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
     pub shadow_samples: u32,
     /// Strength of `pom-soft`: how fast a blocker darkens.
@@ -405,6 +407,7 @@ impl Default for Trace {
             shadow: Shadow::Hard,
             pom_samples_min: 8,
             pom_samples_max: 50,
+            mesh_triangles: 131_072,
             shadow_samples: 16,
             shadow_strength: 4.0,
             area_samples: 64,

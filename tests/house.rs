@@ -61,6 +61,7 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/truth_exact", &["src", "reference", "tests"], "calls what others prove; the captures' proof of views reads it"),
     ("surface/truth_none", &["src", "reference", "tests"], "nothing"),
     ("surface/views", &["src", "reference", "tests"], "numbers as colours: the captures' proof of views reads them"),
+    ("surface/micropolygon", &["reference"], "over a plane its specification is reference/trace_mesh.rs"),
     ("surface/surface", &["reference", "tests"], "calls what others prove; the goldens hold it"),
     ("surface/channels", &["reference", "tests"], "calls what others prove; the captures' proof reads it"),
     ("surface/probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),

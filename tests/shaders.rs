@@ -138,6 +138,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 v_world,
                 displaced_depth,
                 up_world,
+                mesh_quads,
                 origin_world,
                 eye_world,
                 specular,

@@ -48,6 +48,7 @@ struct View {
     v_world: vec3f,
     displaced_depth: u32,        // 1 where the depth of a pixel is that of the relief, 0 where it is that of the polygon
     up_world: vec3f,
+    mesh_quads: u32,             // of the micropolygon mesh along either side of a tile
     origin_world: vec3f,
 
     eye_world: vec3f,
@@ -64,7 +65,9 @@ struct View {
     roughness: f32,              // 0 a mirror, 1 matt
 
     image_size: vec2u,           // of the traced picture, pixels
-    planar: u32,                 // 1 where a mesh's facets take their rays from the forms above
+    // 1 where what is drawn takes its rays from the forms above, 2 where it is the plane alone, clipped to its border, 0 where it
+    // takes them from each point's tangent space.
+    planar: u32,
     ball_count: u32,
     metallic: f32,               // 0 a dielectric, 1 a metal
     reflection: f32,             // how much of its surroundings the surface mirrors

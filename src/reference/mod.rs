@@ -21,6 +21,7 @@ pub mod shell;
 pub mod sky;
 pub mod stamp;
 pub mod trace_exact;
+pub mod trace_mesh;
 pub mod trace_normal;
 pub mod trace_pom;
 pub mod traversal;

@@ -22,6 +22,9 @@ pub const COURANT_SQUARED_MAX: f64 = 0.49;
 /// Samples of a search. More change no picture and stall a frame: 65,536 cross a field of 16,384 texels four times a texel.
 const SAMPLES: Range = Range::from_to(1.0, 65536.0, "samples");
 
+/// Triangles of a micropolygon mesh: the plane's own two, and as many as fit the buffers that every adapter allows.
+const MESH_TRIANGLES: Range = Range::from_to(2.0, 8_388_608.0, "triangles");
+
 /// The numbers that a key may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -226,6 +229,7 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
     number("trace.pom_samples_min", trace.pom_samples_min, SAMPLES)?;
     number("trace.pom_samples_max", trace.pom_samples_max, SAMPLES)?;
+    number("trace.mesh_triangles", trace.mesh_triangles, MESH_TRIANGLES)?;
     if trace.pom_samples_min > trace.pom_samples_max {
         let allowed = format!("at most `trace.pom_samples_max`, {}", trace.pom_samples_max);
         return refuse("trace.pom_samples_min", trace.pom_samples_min, allowed);

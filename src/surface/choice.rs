@@ -47,6 +47,8 @@ choices! {
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
+        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
+        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }

@@ -5,6 +5,7 @@ pub mod choice;
 pub mod display;
 pub mod facet;
 pub mod light_probe;
+pub mod micropolygon;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;

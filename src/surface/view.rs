@@ -7,8 +7,8 @@ use crate::field::base;
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
-use super::Display;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
+use super::{Display, micropolygon};
 
 /// A ball beside the relief. Twin of the WGSL struct in `shaders/common/view.wgsl`.
 #[repr(C)]
@@ -61,7 +61,7 @@ pub struct View {
     pub v_world: [f32; 3],
     pub displaced_depth: u32,
     pub up_world: [f32; 3],
-    pub pad_up: u32,
+    pub mesh_quads: u32,
     pub origin_world: [f32; 3],
     pub pad_origin: u32,
     pub eye_world: [f32; 3],
@@ -134,6 +134,7 @@ impl View {
             shadow_samples: scene.trace.shadow_samples as f32,
             shadow_strength: scene.trace.shadow_strength,
             displaced_depth: u32::from(scene.trace.displaced_depth),
+            mesh_quads: micropolygon::pieces(scene.trace.mesh_triangles, 2),
             eye_world: eye.as_vec3().to_array(),
             specular: scene.material.specular,
             light_world: light.as_vec3().to_array(),

@@ -185,3 +185,22 @@ pub const CONE_RMS: f64 = 0.03;
 
 /// Share of receivers to which a light of a milliradian is a point: the project's bar.
 pub const CONE_POINT_SHARE: f64 = 0.999;
+/// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
+/// MikkTSpace.
+pub const MESH_FRAME: f64 = 1e-5;
+
+/// Metres by which a position of about one metre may be off after a handful of affine maps in f32.
+pub const MESH_LENGTH: f64 = 1e-5;
+
+/// The ray's parameter at a hit of the micropolygon mesh: the rounding of a height over the angle between ray and facet.
+pub const MESH_PARAMETER: f64 = 1e-5;
+
+/// Share of rays through it that may end elsewhere: a ray that only just passes an edge, by rounding.
+pub const MESH_OFF_SHARE: f64 = 2e-3;
+
+/// Cells by which a pixel of rasterised micropolygons may be off: interpolation snaps corners to 1/256 pixel, and a pixel of that
+/// test is some 1.5 cells wide, several where the surface turns away.
+pub const MESH_PIXEL_CELLS: f64 = 0.05;
+
+/// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
+pub const MESH_PIXEL_SHARE: f64 = 2e-3;

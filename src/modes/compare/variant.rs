@@ -47,7 +47,7 @@ impl Variant {
 pub fn has_samples(technique: Technique) -> bool {
     match technique {
         Technique::Pom => true,
-        Technique::Normal | Technique::Exact => false,
+        Technique::Normal | Technique::Exact | Technique::Mesh => false,
     }
 }
 

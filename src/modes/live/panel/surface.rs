@@ -26,6 +26,16 @@ impl Panel {
                 value(ui, &control, &mut trace.pom_samples_max, was.pom_samples_max);
                 trace.pom_samples_max = trace.pom_samples_max.max(trace.pom_samples_min);
             }
+            if trace.technique == Technique::Mesh {
+                let tip = "About how many micropolygons there are";
+                let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
+            }
+            if trace.shadow == Shadow::Area {
+                let tip = "Points of the light's disc, a ray each";
+                let control = Control::new("Shadow rays", "", 1.0, 1024.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.area_samples, was.area_samples);
+            }
             if trace.shadow == Shadow::PomSoft {
                 let tip = "Samples along the ray to the light";
                 let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
@@ -39,6 +49,10 @@ impl Panel {
                 let control = Control::new("Step cap", "", 16.0, 65536.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.step_cap, was.step_cap);
             }
+            let tip = "Draw the relief as a solid with a silhouette of its own, which ends at its mesh's borders";
+            ui.checkbox(&mut trace.shell, "Shell").on_hover_text(tip);
+            let tip = "Write the relief's depth instead of the polygon's, so that surfaces intersect as they should";
+            ui.checkbox(&mut trace.displaced_depth, "Displaced depth").on_hover_text(tip);
             let tip = "Rays along each side of a pixel: the cost is its square";
             let control = Control::new("Supersampling", " ×", 1.0, 4.0).integer().tip(tip);
             value(ui, &control, &mut trace.supersampling, was.supersampling);
