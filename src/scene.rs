@@ -4,6 +4,7 @@
 //! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
 
 mod framing;
+mod techniques;
 mod validate;
 
 use std::path::PathBuf;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
 
+pub use techniques::{PomCounts, PyramidLeaf};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
@@ -208,15 +210,27 @@ pub struct Trace {
     pub technique: Technique,
     /// The shadow upon it.
     pub shadow: Shadow,
-    /// Samples of `pom` seen head-on (\[POM\] eq. 1, n_min).
+    /// Layers of `steep`.
+    pub steep_layers: u32,
+    /// Samples of the linear search of `relief`.
+    pub relief_linear_steps: u32,
+    /// Samples of its binary search.
+    pub relief_binary_steps: u32,
+    /// Whether `relief` shortens the offset of rays that graze (\[POM\] fig. 2).
+    pub relief_depth_bias: bool,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: PomCounts,
+    /// Samples of `pom` and `pom-linear` seen head-on (\[POM\] eq. 1, n_min), or the fewest.
     pub pom_samples_min: u32,
-    /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
+    /// Samples of `pom` and `pom-linear` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: PyramidLeaf,
     /// Samples of `pom-soft` along the light ray.
     pub shadow_samples: u32,
     /// Strength of `pom-soft`: how fast a blocker darkens.
     pub shadow_strength: f32,
-    /// Nodes that `exact` and `hard` may visit before they give up and say so.
+    /// Nodes that `pyramid`, `exact` and `hard` may visit before they give up and say so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
@@ -365,8 +379,16 @@ impl Default for Trace {
         Self {
             technique: Technique::Exact,
             shadow: Shadow::Hard,
+            // [Steep] leaves the count open: that of `pom` seen edge-on.
+            steep_layers: 50,
+            // A thousandth of the depth: 16 · 2⁶ parts of it.
+            relief_linear_steps: 16,
+            relief_binary_steps: 6,
+            relief_depth_bias: false,
+            pom_counts: PomCounts::default(),
             pom_samples_min: 8,
             pom_samples_max: 50,
+            pyramid_leaf: PyramidLeaf::default(),
             shadow_samples: 16,
             shadow_strength: 4.0,
             step_cap: 4096,

@@ -51,7 +51,7 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
 
 /// Techniques and shadows are one WGSL file each and share the passes that run them: they have no Rust of their own.
 fn needs_rust(part: &str) -> bool {
-    !["surface/trace_", "surface/shadow_", "surface/traversal"].iter().any(|prefix| part.starts_with(prefix))
+    !["surface/trace_", "surface/shadow_", "surface/traversal", "surface/march"].iter().any(|prefix| part.starts_with(prefix))
 }
 
 #[test]

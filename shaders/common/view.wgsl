@@ -28,6 +28,13 @@ struct View {
     shadow_samples: f32,
     shadow_strength: f32,
 
+    pom_counts: u32,             // how pom chooses its counts: see surface/march.wgsl
+    steep_layers: f32,
+    relief_linear_steps: f32,
+    relief_binary_steps: u32,
+    relief_depth_bias: u32,      // 1 where relief shortens the offset of grazing rays, else 0
+    pyramid_leaf: u32,           // what pyramid makes of a leaf: see surface/trace_pyramid.wgsl
+
     light_in_field: vec2f,       // lattice travel of a light ray while it climbs by a height of 1
     light_is_up: f32,            // 1 where the light is above the plane, else 0
     first_row: u32,              // of the band that channels are written for

@@ -35,6 +35,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/channels"
+    "surface/march"
     "surface/matter"
     "surface/probe"
     "surface/ray"
@@ -46,7 +47,13 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/surface"
     "surface/trace_exact"
     "surface/trace_normal"
+    "surface/trace_parallax"
+    "surface/trace_parallax_limited"
     "surface/trace_pom"
+    "surface/trace_pom_linear"
+    "surface/trace_pyramid"
+    "surface/trace_relief"
+    "surface/trace_steep"
     "surface/traversal"
 };
 

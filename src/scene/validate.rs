@@ -180,6 +180,10 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
     // Counts beyond these change no picture and stall a frame: 65,536 samples cross a field of 16,384 texels four times a texel.
     let samples = Range::from_to(1.0, 65536.0, "samples");
+    number("trace.steep_layers", trace.steep_layers, Range::from_to(1.0, 65536.0, "layers"))?;
+    number("trace.relief_linear_steps", trace.relief_linear_steps, samples)?;
+    // f32 has 24 bits: further halvings find the same place.
+    number("trace.relief_binary_steps", trace.relief_binary_steps, Range::from_to(1.0, 24.0, "samples"))?;
     number("trace.pom_samples_min", trace.pom_samples_min, samples)?;
     number("trace.pom_samples_max", trace.pom_samples_max, samples)?;
     if trace.pom_samples_min > trace.pom_samples_max {

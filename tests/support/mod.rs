@@ -5,4 +5,5 @@ pub mod desktop;
 pub mod fields;
 pub mod gpu;
 pub mod rays;
+pub mod techniques;
 pub mod tolerances;

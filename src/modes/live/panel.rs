@@ -2,6 +2,7 @@
 //!
 //! [`Panel::show`] edits [`Panel::scene`] in place and returns what else was asked for as [`Action`]s, the same that keys give.
 
+mod techniques;
 mod widgets;
 
 use std::time::Duration;
@@ -13,7 +14,7 @@ use self::widgets::{Control, choice, colour, group, value};
 use super::hand::{Brush, BrushKind};
 use super::input::{Action, GESTURES, SHORTCUTS};
 use super::readings::{self, Readings};
-use crate::scene::{Boundary, Rain, Scene};
+use crate::scene::{Boundary, PomCounts, Rain, Scene};
 use crate::surface::{Albedo, Shadow, Shows, Technique};
 
 /// What the scroll bar takes of the panel, points.
@@ -199,15 +200,7 @@ impl Panel {
             choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
             let depth = Control::new("Depth", " mm", 1.0, 500.0).scale(1e3).decimals(1);
             value(ui, &depth.tip("How far height 0 lies below the plane"), &mut plane.depth_metres, plane_was.depth_metres);
-            if trace.technique == Technique::Pom {
-                let tip = "Samples along a ray that meets the surface head-on ([POM] eq. 1)";
-                let control = Control::new("Samples, head-on", "", 1.0, 128.0).integer().tip(tip);
-                value(ui, &control, &mut trace.pom_samples_min, was.pom_samples_min);
-                let tip = "Samples along a ray that grazes the surface ([POM] eq. 1)";
-                let control = Control::new("Samples, grazing", "", 1.0, 512.0).integer().logarithmic().tip(tip);
-                value(ui, &control, &mut trace.pom_samples_max, was.pom_samples_max);
-                trace.pom_samples_max = trace.pom_samples_max.max(trace.pom_samples_min);
-            }
+            techniques::rows(ui, trace, was);
             if trace.shadow == Shadow::PomSoft {
                 let tip = "Samples along the ray to the light";
                 let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
@@ -216,8 +209,11 @@ impl Panel {
                 let control = Control::new("Shadow strength", " ×", 0.0, 20.0).decimals(1).tip(tip);
                 value(ui, &control, &mut trace.shadow_strength, was.shadow_strength);
             }
-            if trace.technique == Technique::Exact || trace.shadow == Shadow::Hard {
-                let tip = "Nodes that one ray may visit before it gives up";
+            let counts_by_texels =
+                matches!(trace.technique, Technique::Pom | Technique::PomLinear) && trace.pom_counts == PomCounts::Texels;
+            let traverses = matches!(trace.technique, Technique::Pyramid | Technique::Exact) || trace.shadow == Shadow::Hard;
+            if traverses || counts_by_texels {
+                let tip = "Nodes that one ray may visit before it gives up, and the most samples by crossed texels";
                 let control = Control::new("Step cap", "", 16.0, 65536.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.step_cap, was.step_cap);
             }
