@@ -5,7 +5,7 @@
 // What the techniques that search this way share. They differ in how many samples they take, and in what they make of the two
 // between which the ray goes under the surface. What the surface does between samples is theirs to miss.
 //
-// Specification: src/reference/march.rs. Needs common/view, surface/ray and a height part.
+// Specification: src/reference/march.rs. Needs common/view, surface/ray, surface/frame and a height part.
 
 // How `pom` and `pom-linear` choose their counts; the other choice is by the angle.
 const MARCH_BY_TEXELS: u32 = 1u;
@@ -37,11 +37,10 @@ fn march(ray: Ray, samples: f32) -> March {
     return found;
 }
 
-// Cosine between the ray and the polygon's normal: 1 seen head-on, 0 edge-on.
+// Cosine between the ray and the reference surface's normal, in the world: 1 seen head-on, 0 edge-on.
 fn march_cosine(ray: Ray) -> f32 {
-    let travel_metres = ray.travel * view.plane_size_metres / vec2f(view.field_size);
-    let fall_metres = abs(ray.rise) * view.depth_metres;
-    return saturate(fall_metres / max(length(vec3f(travel_metres, fall_metres)), 1e-20));
+    let along = frame.along_u * ray.travel.x + frame.along_v * ray.travel.y + frame.up * ray.rise;
+    return saturate(abs(dot(along, frame_normal())) / max(length(along), 1e-20));
 }
 
 // Samples of `pom` and `pom-linear`.

@@ -35,6 +35,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/channels"
+    "surface/frame"
     "surface/march"
     "surface/matter"
     "surface/probe"

@@ -28,6 +28,7 @@ pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albed
         "surface/ray",
         "common/field",
         sampled,
+        "surface/frame",
         "surface/ray_map",
         "surface/traversal",
         "surface/march",
