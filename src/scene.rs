@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::surface::{Albedo, Shadow, Technique};
 
 pub use techniques::{PomCounts, PyramidLeaf};
-pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
+pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -11,6 +11,7 @@ use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::PresentParams;
+use rilievo::scene::{PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::ray_map::LinearForm;
@@ -227,9 +228,16 @@ fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() 
     let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
-    for (name, number) in shown.chain(became) {
+    let chosen = [("MARCH_BY_TEXELS".to_owned(), PomCounts::Texels as u32)];
+    for (name, number) in shown.chain(became).chain(chosen) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
     }
+}
+
+#[test]
+fn the_leaf_of_a_pyramid_has_the_same_number_on_both_sides() {
+    let module = module(&surface::parts(true, Technique::Pyramid, Shadow::None, Albedo::Plain, "surface"));
+    assert_eq!(constant(&module, "TRACE_PYRAMID_REFINED"), Some(PyramidLeaf::Refined as u32));
 }
 
 /// A module's constant of this name, where it is a literal.

@@ -12,10 +12,9 @@ fn trace(ray: Ray) -> Hit {
     if gap <= 0.0 {
         return hit_at(ray, 0.0, 1u);
     }
-    let fall = march_cosine(ray) * gap;
     // A ray that does not fall never comes down to it.
-    if ray.rise >= 0.0 || fall > -ray.rise * ray.t_end {
+    if ray.rise >= 0.0 || gap > -ray.rise * ray.t_end {
         return end_of(ray, 1u);
     }
-    return hit_at(ray, fall / -ray.rise, 1u);
+    return hit_at(ray, march_cosine(ray) * gap / -ray.rise, 1u);
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::height_image::{self, HeightImage, ImageError};
-use crate::scene::{Base, Camera, Scene, SceneError, VERSION};
+use crate::scene::{Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, VERSION};
 use crate::suggest;
 use crate::surface::{Shadow, Technique};
 
@@ -51,6 +51,14 @@ pub struct SceneOverrides {
     pub technique: Option<Technique>,
     /// The shadow upon it.
     pub shadow: Option<Shadow>,
+    /// Fewest and most samples of a ray, of every technique that takes samples.
+    pub samples: Option<[u32; 2]>,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: Option<PomCounts>,
+    /// Whether `relief` shortens the offset of rays that graze.
+    pub relief_depth_bias: Option<bool>,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: Option<PyramidLeaf>,
     /// Seed of everything random.
     pub seed: Option<u64>,
     /// A camera in place of the scene's and all its motion.
@@ -246,6 +254,21 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     }
     if let Some(shadow) = overrides.shadow {
         scene.trace.shadow = shadow;
+    }
+    if let Some([least, most]) = overrides.samples {
+        let trace = &mut scene.trace;
+        (trace.pom_samples_min, trace.pom_samples_max) = (least, most);
+        // Techniques with one count for all angles take what the others take of a ray that grazes.
+        (trace.steep_layers, trace.relief_linear_steps) = (most, most);
+    }
+    if let Some(counts) = overrides.pom_counts {
+        scene.trace.pom_counts = counts;
+    }
+    if let Some(bias) = overrides.relief_depth_bias {
+        scene.trace.relief_depth_bias = bias;
+    }
+    if let Some(leaf) = overrides.pyramid_leaf {
+        scene.trace.pyramid_leaf = leaf;
     }
     if let Some(seed) = overrides.seed {
         scene.seed = seed;

@@ -8,6 +8,8 @@ use super::{Base, Camera, Light, Material, Obstacle, Scene, Shots, Trace, VERSIO
 pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
 /// Vertical field of view of a camera.
 pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low: false, with_high: false, unit: "degrees" };
+/// Samples, or layers, of a ray. More change no picture and stall a frame: these cross a field of 16,384 texels four times a texel.
+pub const SAMPLES_MAX: u32 = 65536;
 /// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
 pub const COURANT_SQUARED_MAX: f64 = 0.49;
 
@@ -178,9 +180,9 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 }
 
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
-    // Counts beyond these change no picture and stall a frame: 65,536 samples cross a field of 16,384 texels four times a texel.
-    let samples = Range::from_to(1.0, 65536.0, "samples");
-    number("trace.steep_layers", trace.steep_layers, Range::from_to(1.0, 65536.0, "layers"))?;
+    let counts = |unit| Range::from_to(1.0, f64::from(SAMPLES_MAX), unit);
+    let samples = counts("samples");
+    number("trace.steep_layers", trace.steep_layers, counts("layers"))?;
     number("trace.relief_linear_steps", trace.relief_linear_steps, samples)?;
     // f32 has 24 bits: further halvings find the same place.
     number("trace.relief_binary_steps", trace.relief_binary_steps, Range::from_to(1.0, 24.0, "samples"))?;

@@ -14,7 +14,7 @@ use rilievo::surface::{Technique, View, probe};
 use super::fields::{ADDRESSINGS, Kind, Random};
 use super::gpu::gpu;
 use super::rays;
-use super::tolerances::{self, HIT_HEIGHT_OFF_SHARE, filtered_height, hit_height, lattice_bound};
+use super::tolerances::{self, filtered_height, hit_height, lattice_bound};
 
 /// The adapter that tests share, without the feature that lets it filter heights: four loads a sample, in full precision.
 pub fn gpu_that_loads() -> Option<&'static Gpu> {
@@ -126,8 +126,7 @@ impl Tally {
 ///
 /// A hit is right where it is within [`lattice_bound`]. Elsewhere it must lie between those of the specification for the field
 /// raised and for the field lowered by what rounding, and the filter where there is one, can do to a height: then another
-/// rounding of one sample would have found it. Every technique finds a higher surface no later, but for the last halvings of a
-/// binary search and the refinement of a leaf, which the band covers.
+/// rounding of one sample would have found it.
 pub fn compare(gpu: &Gpu, technique: Technique, field: &HeightField, view: &View, rays: &[Ray]) -> Tally {
     let hits = rays::trace(gpu, technique, &rays::upload(gpu, field), view, rays);
     let slope = (0..field.heights.len())
@@ -151,15 +150,18 @@ pub fn compare(gpu: &Gpu, technique: Technique, field: &HeightField, view: &View
         if on_ray && near && level && hit.status == truth.status {
             return (false, None);
         }
-        let [first, last] = [&raised, &lowered].map(|field| expected(technique, view, field, ray));
+        let others = [&raised, &lowered].map(|field| expected(technique, view, field, ray));
+        let around = [truth, others[0], others[1]];
         let length = rays::distance(ray.lattice_at(0.0), ray.lattice_at(1.0));
         let slack = (bound / length).min(1e-3);
-        let between = (first.t - slack..=last.t + slack).contains(&t);
-        let known = [first.status, truth.status, last.status].contains(&hit.status);
+        let first = around.iter().fold(f64::INFINITY, |first, hit| first.min(hit.t)) - slack;
+        let last = around.iter().fold(f64::NEG_INFINITY, |last, hit| last.max(hit.t)) + slack;
+        let between = (first..=last).contains(&t);
+        let known = around.iter().any(|around| around.status == hit.status);
         if on_ray && between && known {
             return (true, None);
         }
-        (true, Some(format!("{ray:?}\n    {hit:?}\n    {truth:?}\n    from {first:?}\n    to {last:?}")))
+        (true, Some(format!("{ray:?}\n    {hit:?}\n    {truth:?}\n    t from {first} to {last}")))
     };
     let judged = rays::each(rays.len(), judge);
     Tally {
@@ -176,7 +178,7 @@ pub fn hold(technique: Technique, adjust: impl Fn(&mut View)) {
     let filters = gpu().filter(|gpu| gpu.filters_r32float());
     for gpu in [Some(loads), filters].into_iter().flatten() {
         let path = if gpu.filters_r32float() { "filtered" } else { "loaded" };
-        let mut total = Tally::default();
+        let (mut smooth, mut rough) = (Tally::default(), Tally::default());
         for (kind, addressing) in Kind::ALL.into_iter().flat_map(|kind| ADDRESSINGS.map(|addressing| (kind, addressing))) {
             let field = kind.field([200, 150], addressing);
             let mut view = rays::view(&field);
@@ -188,11 +190,15 @@ pub fn hold(technique: Technique, adjust: impl Fn(&mut View)) {
             for wrong in tally.wrong.iter().take(2) {
                 eprintln!("{technique:?}, {path}, {kind:?} {addressing:?}: {wrong}");
             }
-            total.add(tally);
+            let is_smooth = matches!(kind, Kind::Constant | Kind::Elevation | Kind::Waves);
+            if is_smooth { &mut smooth } else { &mut rough }.add(tally);
         }
-        assert_eq!(total.wrong.len(), 0, "{technique:?}, {path}");
-        let allowed = if gpu.filters_r32float() { tolerances::FILTERED_OFF_SHARE } else { HIT_HEIGHT_OFF_SHARE };
-        assert!(total.off_share() <= allowed, "{technique:?}, {path}: {} off", total.off_share());
+        for (tally, bar) in [(smooth, tolerances::TECHNIQUE_OFF_SHARE), (rough, tolerances::TECHNIQUE_OFF_SHARE_ROUGH)] {
+            assert_eq!(tally.wrong.len(), 0, "{technique:?}, {path}");
+            // The filter moves every hit on a slope: there the band alone decides.
+            let is_held = !gpu.filters_r32float();
+            assert!(!is_held || tally.off_share() <= bar, "{technique:?}, {path}: {} off", tally.off_share());
+        }
     }
 }
 
