@@ -2,6 +2,7 @@
 
 use super::Channel;
 use crate::io::scene_file::{CameraPlacement, FieldSize};
+use crate::mesh::MeshSource;
 use crate::scene::{self, PomCounts, PyramidLeaf};
 use crate::suggest;
 use crate::surface::{Shadow, Technique};
@@ -70,6 +71,10 @@ pub(super) fn samples(text: &str) -> Result<[u32; 2], String> {
             scene::SAMPLES_MAX
         )),
     }
+}
+
+pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
+    text.parse()
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {
