@@ -119,6 +119,10 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Short fur, combed, the same that the `fur` albedo colours.
+    Fur {},
+    /// A lawn with daisies, the same that the `grass` albedo colours.
+    Grass {},
     /// An image's heights.
     Image {
         /// A PNG or EXR file.

@@ -32,6 +32,8 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "present"
     "surface/albedo_brick"
     "surface/albedo_cobble"
+    "surface/albedo_fur"
+    "surface/albedo_grass"
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/ball"

@@ -137,7 +137,7 @@ fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} => Ok(()),
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
         Base::Image { range: Some([low, high]), .. } if !(low < high && (high - low).is_finite()) => {
             refuse("base.range", format!("[{low}, {high}]"), "two finite numbers, the first less than the second")

@@ -85,6 +85,10 @@ choices! {
         Brick = "brick", "albedo_brick", "Brick";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A leopard's coat, dark toward the roots.
+        Fur = "fur", "albedo_fur", "Fur";
+        /// A lawn with daisies, dark toward the roots.
+        Grass = "grass", "albedo_grass", "Grass";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
     }

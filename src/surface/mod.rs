@@ -76,7 +76,8 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Water => Vec::new(),
+        Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
+        Albedo::Plain | Albedo::Fur | Albedo::Water => Vec::new(),
     }
 }
 
