@@ -53,7 +53,7 @@ fn arguments_alone_exit_with_2() {
     for (arguments, part) in [
         (&["--sceen", "relief"][..], "--scene"),
         (&["capture"], "--out"),
-        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal, pom and exact?"),
+        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal"),
         (&["capture", "--out", "out", "--shadow", "hrad"], "did you mean `hard`"),
         (&["capture", "--out", "out", "--size", "0x480"], "--size"),
         (&["capture", "--out", "out", "--frames", "0"], "--frames"),

@@ -40,7 +40,7 @@ fn march(ray: Ray, samples: f32) -> March {
 // Cosine between the ray and the reference surface's normal, in the world: 1 seen head-on, 0 edge-on.
 fn march_cosine(ray: Ray) -> f32 {
     let along = frame.along_u * ray.travel.x + frame.along_v * ray.travel.y + frame.up * ray.rise;
-    return saturate(abs(dot(along, frame_normal())) / max(length(along), 1e-20));
+    return saturate(abs(dot(along, frame_normal(ray_at(ray, 0.0)))) / max(length(along), 1e-20));
 }
 
 // Samples of `pom` and `pom-linear`.
