@@ -282,7 +282,7 @@ impl Frame {
     }
 
     fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        if Stage::is_needed(&self.scene) {
+        if self.mesh.is_some() || Stage::is_needed(&self.scene) {
             return self.build_stage(gpu);
         }
         self.stage = None;

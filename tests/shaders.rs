@@ -32,19 +32,19 @@ fn compositions() -> Vec<Vec<String>> {
         &["present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
-    for filters in [false, true] {
-        for &technique in Technique::ALL {
-            for &shadow in Shadow::ALL {
-                for &albedo in Albedo::ALL {
-                    let choice = Choice { technique, shadow, albedo };
-                    for entry in ["surface", "channels", "probe"] {
-                        all.push(surface::parts(filters, choice, &[entry]));
-                    }
-                    for geometry in Geometry::ALL {
-                        all.push(surface::parts(filters, choice, geometry.stems()));
-                    }
-                }
+    // Parts meet only through the functions that they share by name: each with each of another kind, not all with all.
+    let plain = Choice::PLAIN;
+    let techniques = Technique::ALL.iter().map(|&technique| Choice { technique, ..plain });
+    let shadows = Shadow::ALL.iter().map(|&shadow| Choice { technique: Technique::Exact, shadow, ..plain });
+    let albedos = Albedo::ALL.iter().map(|&albedo| Choice { shadow: Shadow::Hard, albedo, ..plain });
+    for choice in techniques.chain(shadows).chain(albedos) {
+        for filters in [false, true] {
+            for entry in ["surface", "channels", "probe"] {
+                all.push(surface::parts(filters, choice, &[entry]));
             }
+        }
+        for geometry in Geometry::ALL {
+            all.push(surface::parts(true, choice, geometry.stems()));
         }
     }
     all

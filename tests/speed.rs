@@ -9,7 +9,7 @@ use rilievo::frame::{Frame, FrameInput, Start};
 use rilievo::gpu::{Gpu, Timer};
 use rilievo::io::height_image::HeightImage;
 use rilievo::modes::capture::{PICTURE_FORMAT, Picture};
-use rilievo::modes::stress::milliseconds_when_idle;
+use rilievo::modes::headless::milliseconds_when_idle;
 use rilievo::scene::{Addressing, Base, Scene};
 use rilievo::stroke::Strokes;
 use rilievo::surface::{Shadow, Shows, Technique};

@@ -3,7 +3,7 @@
 // What lies deep is shadowed by what stands around it: [Steep] takes it to be as dark as it is deep, and casts no shadow ray.
 
 // How dark the roots are.
-const FUR_ROOT: f32 = 0.10;
+const FUR_ROOT: f32 = 0.06;
 
 fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
@@ -38,6 +38,6 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let coat = mix(inner, vec3f(0.035, 0.022, 0.014), 0.95 * ring * broken);
     // Tips are paler than what they grow from.
     let tip = smoothstep(0.45, 0.95, point.height);
-    let deep = mix(FUR_ROOT, 1.0, smoothstep(0.18, 0.80, point.height));
+    let deep = mix(FUR_ROOT, 1.0, smoothstep(0.24, 0.86, point.height));
     return sooty(coat * deep * mix(0.80, 1.15, hair) * mix(0.95, 1.20, tip), stamped.r);
 }

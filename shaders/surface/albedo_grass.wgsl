@@ -25,13 +25,15 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let at = metres / DAISY_CELL;
     let cell = vec2i(floor(at));
     let radius = 0.0065 + 0.0030 * hash_cell(cell, 104u);
-    let top = 0.88 + 0.10 * hash_cell(cell, 105u);
+    let top = 0.82 + 0.10 * hash_cell(cell, 105u);
     let centre = 0.2 + 0.6 * vec2f(hash_cell(cell, 102u), hash_cell(cell, 103u));
     let from_centre = length(fract(at) - centre) * DAISY_CELL / radius;
-    // Petals stand above the grass; below them is a stalk that the grass hides.
-    if hash_cell(cell, 101u) < 0.4 && from_centre < 1.0 && point.height > top - 0.24 {
+    if hash_cell(cell, 101u) < 0.4 && from_centre < 1.02 {
         let petal = mix(vec3f(0.86, 0.84, 0.80), vec3f(0.80, 0.66, 0.70), smoothstep(0.75, 1.0, from_centre));
-        colour = mix(vec3f(0.86, 0.56, 0.05), petal, smoothstep(0.28, 0.36, from_centre));
+        let head = mix(vec3f(0.86, 0.56, 0.05), petal, smoothstep(0.28, 0.36, from_centre));
+        // A height field has no stalk: below the petals the column under the head is as dark as the grass that would hide it.
+        let below = green * 0.45 * deep;
+        colour = mix(below, head, smoothstep(top - 0.17, top - 0.13, point.height));
     }
     return sooty(colour, stamped.r);
 }

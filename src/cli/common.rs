@@ -7,7 +7,7 @@ use clap::Args;
 use super::Verbosity;
 use super::values::{
     backend, camera, depth, field, fov, height_range, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
-    pyramid_leaf_help, samples, shadow, shadow_help, size, switch, technique, technique_help, whole_u64,
+    pyramid_leaf_help, sample_range, shadow, shadow_help, size, switch, technique, technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
@@ -23,14 +23,14 @@ pub struct CommonOptions {
     pub scene: String,
 
     #[arg(long, value_name = "T", value_parser = technique, help = technique_help(), help_heading = "Scene")]
-    technique: Option<Technique>,
+    pub(super) technique: Option<Technique>,
 
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
-    shadow: Option<Shadow>,
+    pub(super) shadow: Option<Shadow>,
 
     /// Fewest and most samples of a ray: of pom and pom-linear head-on and edge-on; MAX is also the layers of steep and the
     /// linear steps of relief [default: the scene's]
-    #[arg(long, value_name = "MIN,MAX", value_parser = samples, allow_hyphen_values = true, help_heading = "Scene")]
+    #[arg(long, value_name = "MIN,MAX", value_parser = sample_range, allow_hyphen_values = true, help_heading = "Scene")]
     samples: Option<[u32; 2]>,
 
     #[arg(long, value_name = "HOW", value_parser = pom_counts, help = pom_counts_help(), help_heading = "Scene")]

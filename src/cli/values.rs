@@ -1,6 +1,6 @@
 //! The text of a value to the value, or else the rest of the sentence "`--flag` cannot be `text`: …".
 
-use super::Channel;
+use super::{Channel, Truth};
 use crate::io::scene_file::{CameraPlacement, FieldSize};
 use crate::mesh::MeshSource;
 use crate::scene::{self, PomCounts, PyramidLeaf};
@@ -8,13 +8,29 @@ use crate::suggest;
 use crate::surface::{Shadow, Technique};
 
 pub(super) fn technique_help() -> String {
-    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
-    format!("How the surface is traced: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+    format!("How the surface is traced: {} [default: the scene's]", technique_names("or"))
 }
 
 pub(super) fn shadow_help() -> String {
+    format!("The shadow upon it: {} [default: the scene's]", shadow_names("or"))
+}
+
+pub(super) fn techniques_help() -> String {
+    format!("Techniques to compare, of {} [default: all of them, or that of --technique]", technique_names("and"))
+}
+
+pub(super) fn shadows_help() -> String {
+    format!("Shadows to compare each of them with, of {} [default: the scene's, or that of --shadow]", shadow_names("and"))
+}
+
+fn technique_names(conjunction: &str) -> String {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    suggest::enumerate(&names, conjunction)
+}
+
+fn shadow_names(conjunction: &str) -> String {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
-    format!("The shadow upon it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+    suggest::enumerate(&names, conjunction)
 }
 
 pub(super) fn technique(text: &str) -> Result<Technique, String> {
@@ -62,7 +78,7 @@ pub(super) fn switch(text: &str) -> Result<bool, String> {
 }
 
 /// Fewest and most samples of a ray, within what a scene may say.
-pub(super) fn samples(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn sample_range(text: &str) -> Result<[u32; 2], String> {
     let counts = text.split_once(',').map(|(least, most)| (least.trim().parse(), most.trim().parse()));
     match counts {
         Some((Ok(least), Ok(most))) if 1 <= least && least <= most && most <= scene::SAMPLES_MAX => Ok([least, most]),
@@ -81,6 +97,12 @@ pub(super) fn channel(text: &str) -> Result<Channel, String> {
     let names = Channel::ALL.map(Channel::name);
     let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
     found.ok_or_else(|| suggest::unknown("channel", text, &names))
+}
+
+pub(super) fn truth(text: &str) -> Result<Truth, String> {
+    let names = Truth::ALL.map(Truth::name);
+    let found = Truth::ALL.into_iter().find(|truth| truth.name() == text);
+    found.ok_or_else(|| suggest::unknown("truth", text, &names))
 }
 
 pub(super) fn backend(text: &str) -> Result<wgpu::Backends, String> {
@@ -116,6 +138,16 @@ fn positive_u32(text: &str) -> Result<u32, String> {
         Ok(number) if number > 0 => Ok(number),
         _ => Err(format!("it must be a whole number from 1 to {}", u32::MAX)),
     }
+}
+
+/// Samples along a ray.
+pub(super) fn samples(text: &str) -> Result<u32, String> {
+    let count = positive_u32(text).ok().filter(|count| *count <= scene::SAMPLES_MAX);
+    count.ok_or_else(|| format!("each must be a whole number from 1 to {}", scene::SAMPLES_MAX))
+}
+
+pub(super) fn field_width(text: &str) -> Result<u32, String> {
+    positive_u32(text).map_err(|_| format!("each must be a whole number from 1 to {}", u32::MAX))
 }
 
 pub(super) fn frames(text: &str) -> Result<u32, String> {
@@ -166,6 +198,10 @@ pub(super) fn stamp_radius(text: &str) -> Result<f32, String> {
 
 pub(super) fn fov(text: &str) -> Result<f64, String> {
     number_within(text, scene::VERTICAL_FOV_DEGREES)
+}
+
+pub(super) fn gain(text: &str) -> Result<f64, String> {
+    number_within(text, scene::Range::above(0.0, 1e6, ""))
 }
 
 pub(super) fn dt(text: &str) -> Result<f64, String> {

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::{ModeError, load_scene, open_device, progress, start, wait_for, wait_for_gpu};
+use super::headless::Headless;
+use super::{ModeError, progress, wait_for, wait_for_gpu};
 use crate::camera::Camera;
 use crate::cli::{CaptureOptions, Channel, Verbosity};
 use crate::clock::{Clock, Pace};
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, Readback};
 use crate::io::manifest::{self, Manifest};
-use crate::io::output_dir::OutputDir;
+use crate::io::output_dir::{OutputDir, Owner};
 use crate::io::{exr_file, png_file};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
@@ -25,15 +26,10 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormS
 ///
 /// The scene, its image, the adapter, its limits or the output directory are unfit, in this order; nothing is left behind.
 pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeError> {
-    let loaded = load_scene(&options.common)?;
-    let gpu = open_device(&options.common)?;
-    crate::frame::check_limits(&gpu, &loaded.scene, options.common.image_size)?;
-    let start = start(&loaded);
+    let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
-    let mut frame = Frame::new(&gpu, &start, options.common.image_size, PICTURE_FORMAT)?;
-    let picture = Picture::new(&gpu, options.common.image_size);
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
-    let directory = OutputDir::create(&options.out)?;
+    let directory = OutputDir::create(&options.out, Owner::Capture)?;
 
     let mut clock = Clock::new(frame.step_seconds());
     let mut manifest = Manifest::new(scene, &gpu.adapter.get_info(), options.common.image_size, options.dt, options.warmup);
@@ -79,7 +75,7 @@ pub fn write_last_frame(
 ) -> Result<(), ModeError> {
     let picture = Picture::new(gpu, frame.image_size());
     let channels = ChannelFiles::default();
-    let directory = OutputDir::create(out)?;
+    let directory = OutputDir::create(out, Owner::Capture)?;
     picture.draw(gpu, frame, input)?;
     let files = write_files(gpu, frame, &picture, &channels, input, &directory, 0)?;
     let mut manifest = Manifest::new(frame.scene(), &gpu.adapter.get_info(), frame.image_size(), dt_seconds, warmup);

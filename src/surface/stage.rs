@@ -59,9 +59,9 @@ pub struct Seen<'a> {
 }
 
 impl Stage {
-    /// Whether a scene needs one: without, the plane alone is drawn, which antialiases its border.
+    /// Whether a scene without a mesh needs one: else the plane alone is drawn, which antialiases its border.
     pub fn is_needed(scene: &Scene) -> bool {
-        scene.mesh.is_some() || !scene.balls.is_empty() || scene.trace.shell || scene.trace.displaced_depth
+        !scene.balls.is_empty() || scene.trace.shell || scene.trace.displaced_depth
     }
 
     /// Makes one for pictures of `size` traced pixels; `mesh` is the scene's, or the plane where its shell is drawn.

@@ -5,5 +5,6 @@ pub mod desktop;
 pub mod fields;
 pub mod gpu;
 pub mod rays;
+pub mod seen;
 pub mod techniques;
 pub mod tolerances;

@@ -72,6 +72,11 @@ pub const TANGENT_SHARE: f64 = 1e-4;
 /// diagonal of blocks, mostly).
 pub const ADVERSARIAL_TANGENT_SHARE: f64 = 7e-4;
 
+/// Share of a mesh's pixels that may disagree with brute force because a ray grazes or a silhouette passes within a 256th of a pixel of
+/// its centre: the project's bar is one in ten thousand for the plane; a shell has its silhouettes besides, which are lines of one
+/// pixel in width of which 1/128 can fall either way.
+pub const SHELL_OFF_SHARE: f64 = 5e-3;
+
 /// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
 pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 
@@ -134,3 +139,7 @@ pub const SOFT_STEP: f64 = 1.0 / 64.0;
 
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
 pub const SOFT_VARIATION: f64 = 1.01;
+
+/// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
+/// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
+pub const COMPARED_P99: f64 = 1e-3;

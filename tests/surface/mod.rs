@@ -1,10 +1,13 @@
 //! How it is seen.
 
+mod balls;
+mod facet;
 mod march;
 mod ray_map;
 mod shadow_hard;
 mod shadow_none;
 mod shadow_pom_soft;
+mod shell;
 mod techniques;
 mod trace_exact;
 mod trace_normal;

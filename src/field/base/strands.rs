@@ -127,7 +127,7 @@ pub(super) fn grass(size: [u32; 2], texel_metres: f64, seed: u64) -> Vec<f32> {
 fn daisy(cell: [i32; 2]) -> Option<([f64; 2], f64, f64)> {
     let random = |salt: u32| hash_cell(cell, salt);
     let centre = [0.2 + 0.6 * random(102), 0.2 + 0.6 * random(103)];
-    (random(101) < 0.4).then_some((centre, 0.0065 + 0.0030 * random(104), 0.88 + 0.10 * random(105)))
+    (random(101) < 0.4).then_some((centre, 0.0065 + 0.0030 * random(104), 0.82 + 0.10 * random(105)))
 }
 
 /// Raises the daisies' heads above the grass: a disc in the middle, petals around it.
