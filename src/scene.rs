@@ -6,6 +6,7 @@
 mod bodies;
 mod framing;
 mod lights;
+mod techniques;
 mod validate;
 
 use std::path::PathBuf;
@@ -17,7 +18,8 @@ use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
-pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
+pub use techniques::{PomCounts, PyramidLeaf};
+pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;
@@ -122,6 +124,10 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Short fur, combed, the same that the `fur` albedo colours.
+    Fur {},
+    /// A lawn with daisies, the same that the `grass` albedo colours.
+    Grass {},
     /// An image's heights.
     Image {
         /// A PNG or EXR file.
@@ -221,10 +227,22 @@ pub struct Trace {
     pub technique: Technique,
     /// The shadow upon it.
     pub shadow: Shadow,
-    /// Samples of `pom` seen head-on (\[POM\] eq. 1, n_min).
+    /// Layers of `steep`.
+    pub steep_layers: u32,
+    /// Samples of the linear search of `relief`.
+    pub relief_linear_steps: u32,
+    /// Samples of its binary search.
+    pub relief_binary_steps: u32,
+    /// Whether `relief` shortens the offset of rays that graze (\[POM\] fig. 2).
+    pub relief_depth_bias: bool,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: PomCounts,
+    /// Samples of `pom` and `pom-linear` seen head-on (\[POM\] eq. 1, n_min), or the fewest.
     pub pom_samples_min: u32,
-    /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
+    /// Samples of `pom` and `pom-linear` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: PyramidLeaf,
     /// About how many triangles `mesh` has.
     pub mesh_triangles: u32,
     /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
@@ -233,7 +251,7 @@ pub struct Trace {
     pub shadow_strength: f32,
     /// Points of the light's disc to which `area` sends a ray each.
     pub area_samples: u32,
-    /// Nodes that one ray of `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
+    /// Nodes that one ray of `pyramid`, `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
@@ -405,9 +423,17 @@ impl Default for Trace {
         Self {
             technique: Technique::Exact,
             shadow: Shadow::Hard,
+            // [Steep] leaves the count open: that of `pom` seen edge-on.
+            steep_layers: 50,
+            // A thousandth of the depth: 16 · 2⁶ parts of it.
+            relief_linear_steps: 16,
+            relief_binary_steps: 6,
+            relief_depth_bias: false,
+            pom_counts: PomCounts::default(),
             pom_samples_min: 8,
             pom_samples_max: 50,
             mesh_triangles: 131_072,
+            pyramid_leaf: PyramidLeaf::default(),
             shadow_samples: 16,
             shadow_strength: 4.0,
             area_samples: 64,

@@ -39,6 +39,12 @@ fn the_binary_embeds_every_shader() {
 const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/albedo_brick", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
     ("surface/albedo_cobble", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
+    ("surface/albedo_fur", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    (
+        "surface/albedo_grass",
+        &["src", "reference", "tests"],
+        "a colour: the goldens hold it; its layout is field/base/strands.rs's",
+    ),
     ("surface/albedo_plain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_water", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/ball", &["src", "reference", "tests"], "draws what surface/balls proves"),
@@ -73,6 +79,7 @@ fn needs_rust(part: &str) -> bool {
         "surface/trace_",
         "surface/shadow_",
         "surface/traversal",
+        "surface/march",
         "surface/light_disc",
         "surface/light_ggx",
         "surface/light_phong",

@@ -42,6 +42,13 @@ struct View {
     shadow_samples: f32,
     shadow_strength: f32,
 
+    pom_counts: u32,             // how pom chooses its counts: see surface/march.wgsl
+    steep_layers: f32,
+    relief_linear_steps: f32,
+    relief_binary_steps: u32,
+    relief_depth_bias: u32,      // 1 where relief shortens the offset of grazing rays, else 0
+    pyramid_leaf: u32,           // what pyramid makes of a leaf: see surface/trace_pyramid.wgsl
+
     // The plane's axes, unit vectors in the world, and its middle.
     u_world: vec3f,
     first_row: u32,              // of the band that channels are written for

@@ -45,10 +45,22 @@ choices! {
     Technique {
         /// Blinn's bump mapping: the surface stays where the polygon is, only its normal changes.
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
+        /// Parallax mapping: one sample says how far the texture shifts (\[Kaneko\]).
+        Parallax = "parallax", "trace_parallax", "Parallax (Kaneko)";
+        /// Parallax mapping whose shift is never longer than the surface is deep (\[Welsh\]).
+        ParallaxLimited = "parallax-limited", "trace_parallax_limited", "Parallax, limited (Welsh)";
+        /// Equal layers, and the first of them below the surface (\[Steep\]).
+        Steep = "steep", "trace_steep", "Steep parallax";
+        /// Relief mapping: a linear search, then a binary one (\[Policarpo\]).
+        Relief = "relief", "trace_relief", "Relief mapping (Policarpo)";
+        /// The linear search of parallax occlusion mapping alone (\[POM\] fig. 4).
+        PomLinear = "pom-linear", "trace_pom_linear", "POM, linear search alone";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
         /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
         Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
+        /// Pyramidal displacement mapping: down a pyramid of bounds to a column, then half a pixel's refinement (\[PDM\]).
+        Pyramid = "pyramid", "trace_pyramid", "Pyramidal displacement";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
@@ -91,6 +103,10 @@ choices! {
         Brick = "brick", "albedo_brick", "Brick";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A leopard's coat, dark toward the roots.
+        Fur = "fur", "albedo_fur", "Fur";
+        /// A lawn with daisies, dark toward the roots.
+        Grass = "grass", "albedo_grass", "Grass";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
         /// Clear glass over a table.

@@ -13,7 +13,7 @@ use rilievo::stroke::Strokes;
 use rilievo::surface::channels::Channel;
 use rilievo::surface::micropolygon::{MicroVertex, bare_plane, indices, pieces, vertices};
 use rilievo::surface::ray_map::{Placement, Target};
-use rilievo::surface::{Channels, Choice, Shadow, Display, Technique};
+use rilievo::surface::{Channels, Choice, Display, Shadow, Technique};
 
 use crate::support::fields::{ADDRESSINGS, Kind};
 use crate::support::gpu::gpu;

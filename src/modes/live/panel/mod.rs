@@ -12,6 +12,7 @@ mod simulation;
 mod split;
 mod style;
 mod surface;
+mod techniques;
 mod view;
 mod widgets;
 
