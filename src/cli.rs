@@ -67,6 +67,11 @@ pub struct CommonOptions {
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
     shadow: Option<Shadow>,
 
+    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. `exact` stays exact
+    /// unless the scene says otherwise [default: the scene's]
+    #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
+    lod: Option<Detail>,
+
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
     seed: Option<u64>,
@@ -114,6 +119,7 @@ impl CommonOptions {
             depth_metres: self.depth,
             technique: self.technique,
             shadow: self.shadow,
+            lod: self.lod.map(|Detail(threshold)| threshold),
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,
@@ -404,6 +410,20 @@ fn shadow(text: &str) -> Result<Shadow, String> {
     Shadow::from_name(text).ok_or_else(|| suggest::unknown("shadow", text, &names))
 }
 
+/// A threshold of the level of detail, or none: off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Detail(Option<f32>);
+
+#[expect(clippy::cast_possible_truncation, reason = "a mip level has no use for more digits")]
+fn lod(text: &str) -> Result<Detail, String> {
+    match text {
+        "off" => Ok(Detail(None)),
+        _ => number_within(text, scene::LOD_THRESHOLD)
+            .map(|level| Detail(Some(level as f32)))
+            .map_err(|problem| format!("{problem}, or off")),
+    }
+}
+
 fn channel(text: &str) -> Result<Channel, String> {
     let names = Channel::ALL.map(Channel::name);
     let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
@@ -577,6 +597,7 @@ mod tests {
                 depth_metres: Some(0.25),
                 technique: Some(Technique::Pom),
                 shadow: Some(Shadow::PomSoft),
+                lod: Some(Some(2.5)),
                 seed: Some(u64::MAX),
                 camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
                 vertical_fov_degrees: Some(30.0),

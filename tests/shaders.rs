@@ -5,6 +5,7 @@ use std::mem::{offset_of, size_of};
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::ComposeParams;
+use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
@@ -12,6 +13,7 @@ use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::PresentParams;
 use rilievo::surface::channels::Channel;
+use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::ray_map::LinearForm;
 use rilievo::surface::{self, Albedo, Shadow, Shows, Technique, View};
@@ -19,8 +21,9 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 6] = [
+    let fixed: [&[&str]; 7] = [
         &["common/region", "field/compose"],
+        &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
@@ -134,11 +137,15 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 shows,
                 tint,
                 image_size,
+                repeat,
+                detail,
             }),
         ),
+        ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
+        ("NormalMipsParams", layout!(NormalMipsParams { region, source_size, size, last_weight })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),

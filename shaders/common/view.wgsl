@@ -7,6 +7,14 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// How level of detail is chosen: see surface/level_of_detail.wgsl.
+struct ViewDetail {
+    threshold: f32, // mip level beyond which normal mapping alone is left
+    traces: u32,    // 1 where the trace looks no closer than half a pixel
+    filters: u32,   // 1 where light falls on what a pixel sees, not on one point
+    pad: u32,
+}
+
 struct View {
     // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
     // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
@@ -45,6 +53,8 @@ struct View {
     tint: vec3f,
 
     image_size: vec2u,           // of the traced picture, pixels
+    repeat: vec2f,               // how often the plane shows the field along u and v
+    detail: ViewDetail,
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -21,8 +21,8 @@ fn water_caustic(lattice: vec2f) -> f32 {
     }
     let spread = 3.0;
     let here = load_surface(lattice);
-    let around = sample_height(lattice + vec2f(spread, 0.0)) + sample_height(lattice - vec2f(spread, 0.0))
-        + sample_height(lattice + vec2f(0.0, spread)) + sample_height(lattice - vec2f(0.0, spread));
+    let around = sample_field(lattice + vec2f(spread, 0.0)) + sample_field(lattice - vec2f(spread, 0.0))
+        + sample_field(lattice + vec2f(0.0, spread)) + sample_field(lattice - vec2f(0.0, spread));
     let texels = spread * view.texel_metres;
     let curvature = (around - 4.0 * here) * view.depth_metres / (texels * texels);
     return clamp(1.0 / max(1.0 + 0.25 * WATER_FLOOR_METRES * curvature, 0.22), 0.45, 2.6);

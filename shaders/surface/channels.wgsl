@@ -42,6 +42,6 @@ fn write_channels(@builtin(global_invocation_id) id: vec3u) {
         shaded.height,
         uv_of(shaded.hit.lattice),
         shaded.visibility,
-        0.0,
+        select(0.0, footprint.level, view.detail.traces == 1u),
     );
 }

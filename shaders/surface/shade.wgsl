@@ -8,6 +8,8 @@ const SHOW_HEIGHT: u32 = 1u;
 const SHOW_NORMAL: u32 = 2u;
 const SHOW_VISIBILITY: u32 = 3u;
 const SHOW_STEPS: u32 = 4u;
+const SHOW_MIPLEVEL: u32 = 16u;
+const SHOW_LODTINT: u32 = 17u;
 
 struct Shaded {
     hit: Hit,
@@ -22,38 +24,38 @@ fn world_of(lattice: vec2f, height: f32) -> vec3f {
     return vec3f(plane.x, (height - 1.0) * view.depth_metres, plane.y);
 }
 
-// The normal at a lattice position: field space is u right, v down, out; the world's axes are x, z, y.
-fn normal_at(lattice: vec2f) -> vec3f {
-    let normal = normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz);
-    return normal.xzy;
-}
-
 // Share of the light that reaches a point of the surface.
 fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
     if view.light_is_up == 0.0 || dot(normal_world, view.light_world) <= 0.0 {
         return 0.0;
     }
-    return shadow(shadow_ray(lattice, view.light_in_field, height));
+    let left = detail_shadows(view.light_in_field);
+    if left == 0.0 {
+        return 1.0;
+    }
+    return mix(1.0, shadow(shadow_ray(lattice, view.light_in_field, height)), left);
 }
 
 // How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of
 // it.
-fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
+fn sky_visibility(lattice: vec2f, field_height: f32) -> f32 {
+    let level = light_level();
+    let height = select(height_over(lattice, level), field_height, level == 0.0);
     let per_texel = view.depth_metres / view.texel_metres;
     let near = 4.0;
     let far = 13.0;
     let diagonal = 0.70710678 * far;
     let climbs = max(vec4f(0.0), per_texel / near * (vec4f(
-        sample_height(lattice + vec2f(near, 0.0)),
-        sample_height(lattice + vec2f(0.0, near)),
-        sample_height(lattice - vec2f(near, 0.0)),
-        sample_height(lattice - vec2f(0.0, near)),
+        height_over(lattice + vec2f(near, 0.0), level),
+        height_over(lattice + vec2f(0.0, near), level),
+        height_over(lattice - vec2f(near, 0.0), level),
+        height_over(lattice - vec2f(0.0, near), level),
     ) - height));
     let rises = max(vec4f(0.0), per_texel / far * (vec4f(
-        sample_height(lattice + vec2f(diagonal, diagonal)),
-        sample_height(lattice + vec2f(-diagonal, diagonal)),
-        sample_height(lattice - vec2f(diagonal, diagonal)),
-        sample_height(lattice + vec2f(diagonal, -diagonal)),
+        height_over(lattice + vec2f(diagonal, diagonal), level),
+        height_over(lattice + vec2f(-diagonal, diagonal), level),
+        height_over(lattice - vec2f(diagonal, diagonal), level),
+        height_over(lattice + vec2f(diagonal, -diagonal), level),
     ) - height));
     // The sines of the horizon's elevations.
     let hidden = climbs * inverseSqrt(1.0 + climbs * climbs) + rises * inverseSqrt(1.0 + rises * rises);
@@ -61,9 +63,10 @@ fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
 }
 
 fn shade(ray: Ray) -> Shaded {
-    let hit = trace(ray);
+    let hit = trace_detail(ray);
     let height = load_surface(hit.lattice);
-    let normal = normal_at(hit.lattice);
+    let over = normal_over(hit.lattice);
+    let normal = over.xyz;
     let lit = visibility_at(hit.lattice, height, normal);
 
     let position = world_of(hit.lattice, hit.height);
@@ -72,10 +75,12 @@ fn shade(ray: Ray) -> Shaded {
     let halfway = normalize(toward_eye + view.light_world);
     let diffuse = max(dot(normal, view.light_world), 0.0);
     // Normalised, so that a tighter highlight is a brighter one.
-    let highlight = matter.specular * (matter.shininess + 8.0) / 25.0 * pow(max(dot(normal, halfway), 0.0), matter.shininess);
+    let shininess = detail_shininess(matter.shininess, over.w);
+    let highlight = matter.specular * (shininess + 8.0) / 25.0 * pow(max(dot(normal, halfway), 0.0), shininess);
     let ambient = mix(view.ground, view.sky, 0.5 + 0.5 * normal.y) * sky_visibility(hit.lattice, height);
     let direct = view.light_radiance * lit * diffuse;
-    let radiance = matter.albedo * (ambient + direct) + direct * highlight + matter.glow;
+    // Normals that differ face the light, and the sky out of the valleys between them, as much less as their mean is shorter.
+    let radiance = matter.albedo * over.w * (ambient + direct) + direct * highlight + matter.glow;
     return Shaded(hit, height, normal, lit, radiance);
 }
 
@@ -89,6 +94,13 @@ fn heat(value: f32) -> vec3f {
     );
 }
 
+// [POM] fig. 12: no blue is the full effect, the deepest is normal mapping alone.
+fn detail_tint(radiance: vec3f) -> vec3f {
+    let coarser = saturate(footprint.trace_level / max(view.detail.threshold - 1.0 - DETAIL_FINER, 1.0));
+    let blue = mix(0.35 * coarser, 1.0, footprint.flattened);
+    return mix(radiance, vec3f(0.08, 0.16, 1.0) * (0.12 + dot(radiance, vec3f(0.2126, 0.7152, 0.0722))), 0.85 * blue);
+}
+
 // The radiance of the picture or of the view that was chosen instead.
 fn shown(shaded: Shaded) -> vec3f {
     switch view.shows {
@@ -96,6 +108,8 @@ fn shown(shaded: Shaded) -> vec3f {
         case SHOW_NORMAL: { return shaded.normal_world.xzy * vec3f(0.5, -0.5, 0.5) + 0.5; }
         case SHOW_VISIBILITY: { return vec3f(shaded.visibility); }
         case SHOW_STEPS: { return heat(f32(shaded.hit.steps) / 64.0); }
+        case SHOW_MIPLEVEL: { return heat(footprint.level / 10.0); }
+        case SHOW_LODTINT: { return detail_tint(shaded.radiance); }
         default: {
             // A ray that gave up is never silently a hit.
             return select(shaded.radiance, vec3f(4.0, 0.0, 4.0), shaded.hit.status == CAPPED);

@@ -18,7 +18,7 @@ fn trace_pom_samples(ray: Ray) -> f32 {
 }
 
 fn trace(ray: Ray) -> Hit {
-    let step = ray.t_end / trace_pom_samples(ray);
+    let step = ray.t_end / detail_samples(trace_pom_samples(ray));
     var t = 0.0;
     var gap = ray_height(ray, 0.0) - sample_height(ray_at(ray, 0.0));
     var steps = 1u;

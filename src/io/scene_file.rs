@@ -51,6 +51,8 @@ pub struct SceneOverrides {
     pub technique: Option<Technique>,
     /// The shadow upon it.
     pub shadow: Option<Shadow>,
+    /// Level of detail from this mip level on; `Some(None)` is off.
+    pub lod: Option<Option<f32>>,
     /// Seed of everything random.
     pub seed: Option<u64>,
     /// A camera in place of the scene's and all its motion.
@@ -247,11 +249,15 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(shadow) = overrides.shadow {
         scene.trace.shadow = shadow;
     }
+    if let Some(threshold) = overrides.lod {
+        scene.lod.threshold = threshold;
+    }
     if let Some(seed) = overrides.seed {
         scene.seed = seed;
     }
     if let Some(CameraPlacement { eye, target }) = overrides.camera {
-        scene.camera = Camera { eye, target, orbit_degrees_per_second: 0.0, ..scene.camera };
+        let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+        scene.camera = Camera { eye, target, ..still };
     }
     if let Some(fov) = overrides.vertical_fov_degrees {
         scene.camera.vertical_fov_degrees = fov;

@@ -4,6 +4,8 @@
 //! ways, to go unnoticed. Heights are f32, as the textures hold them; everything computed from them is f64.
 
 pub mod compose;
+pub mod level_of_detail;
+pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;

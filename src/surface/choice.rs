@@ -93,11 +93,15 @@ pub enum Shows {
     Visibility = 3,
     /// The samples or nodes of the view ray, as heat: 64 and more are the brightest.
     Steps = 4,
+    /// The mip level of the pixel, as heat: 10 and more are the brightest.
+    MipLevel = 16,
+    /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
+    LodTint = 17,
 }
 
 impl Shows {
     /// Every view, in the order in which a key cycles them.
-    pub const ALL: &'static [Self] = &[Self::Picture, Self::Height, Self::Normal, Self::Visibility, Self::Steps];
+    pub const ALL: &'static [Self] = &[Self::Picture, Self::Height, Self::Normal, Self::Visibility, Self::Steps, Self::MipLevel, Self::LodTint];
 
     /// What the panel calls it.
     pub const fn label(self) -> &'static str {
@@ -107,6 +111,8 @@ impl Shows {
             Self::Normal => "Normals",
             Self::Visibility => "Visibility of the light",
             Self::Steps => "Steps a pixel",
+            Self::MipLevel => "Mip level",
+            Self::LodTint => "Level of detail in blue",
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod channels;
 pub mod choice;
+pub mod level_of_detail;
 pub mod probe;
 pub mod ray_map;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
@@ -23,9 +24,18 @@ pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albed
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
     let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
     let mut parts: Vec<String> =
-        ["common/view", "common/noise", "surface/ray", "common/field", sampled, "surface/ray_map", "surface/traversal"]
-            .map(str::to_owned)
-            .to_vec();
+        [
+        "common/view",
+        "common/noise",
+        "surface/ray",
+        "common/field",
+        sampled,
+        "surface/level_of_detail",
+        "surface/ray_map",
+        "surface/traversal",
+    ]
+    .map(str::to_owned)
+    .to_vec();
     parts.extend(stems.map(|stem| format!("surface/{stem}")));
     parts
 }

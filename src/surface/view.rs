@@ -6,6 +6,7 @@ use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, Scene};
 
 use super::Shows;
+use super::level_of_detail::ViewDetail;
 use super::ray_map::{LinearForm, RayMap, Target};
 
 /// What is seen, how it is traced, how it is lit. Twin of the WGSL struct in `shaders/common/view.wgsl`, where each field's meaning
@@ -45,7 +46,8 @@ pub struct View {
     pub tint: [f32; 3],
     pub pad_tint: u32,
     pub image_size: [u32; 2],
-    pub pad: [u32; 2],
+    pub repeat: [f32; 2],
+    pub detail: ViewDetail,
 }
 
 impl View {
@@ -94,7 +96,8 @@ impl View {
             tint: scene.material.tint,
             pad_tint: 0,
             image_size,
-            pad: [0; 2],
+            repeat: scene.plane.repeat.map(|times| times as f32),
+            detail: ViewDetail::new(scene),
         }
     }
 }
@@ -139,6 +142,8 @@ impl ViewSet {
             address_mode_v: address_mode,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
+            // Between levels as well as texels: what is read at a level of detail moves smoothly with it.
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
         let uniform = Uniform::new(gpu, "view");

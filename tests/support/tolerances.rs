@@ -78,6 +78,11 @@ pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 /// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
 pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
 
+/// A component of a mean of normals: each level is stored as a half, whose rounding the levels above it inherit.
+pub fn normal_mip(level: usize) -> f64 {
+    (1 + level) as f64 * NORMAL_COMPONENT
+}
+
 /// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
 /// two or three.
 pub const GOLDEN_LEVELS: u8 = 3;
