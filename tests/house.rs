@@ -41,6 +41,11 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/albedo_cobble", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
     ("surface/albedo_plain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_water", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    (
+        "surface/frame",
+        &["src", "reference", "tests"],
+        "an affine map and its inverse: the captures' proof reads positions through it",
+    ),
     ("surface/matter", &["src", "reference", "tests"], "what albedos share"),
     ("surface/ray", &["src", "reference", "tests"], "two structs: their twins are the probe's"),
     ("surface/shade", &["src", "reference", "tests"], "a light model without free choices: the goldens hold it"),

@@ -6,7 +6,8 @@
 // mapping without anisotropy (OpenGL 4.6 §8.14.1): log₂ of the longer of the two texel distances that one pixel to the right and
 // one pixel down make. So nothing aliases, and what a grazing pixel's short side could still show is lost with the long one.
 //
-// Specification: src/reference/level_of_detail.rs. Needs common/view, common/field, surface/ray and a height part.
+// Specification: src/reference/level_of_detail.rs. Needs common/view, common/field, surface/ray,
+// surface/frame and a height part.
 
 struct Footprint {
     texels: vec2f,    // its extent along u and along v
@@ -93,9 +94,8 @@ fn normal_over(lattice: vec2f) -> vec4f {
     let level = light_level();
     let mean = textureSampleLevel(normal_map, bilinear, uv_of(lattice), level).xyz;
     let length = length(mean);
-    // Field space is u right, v down, out; the world's axes are x, z, y. Seen closer than the texels, what the bilinear filter
-    // takes off a unit normal is no roughness.
-    return vec4f(mean.xzy / length, mix(1.0, min(length, 1.0), saturate(level)));
+    // Seen closer than the texels, what the bilinear filter takes off a unit normal is no roughness.
+    return vec4f(frame_normal_of(mean), mix(1.0, min(length, 1.0), saturate(level)));
 }
 
 // The exponent of a highlight on normals whose mean has this length (Toksvig 2005, "Mipmapping Normal Maps").

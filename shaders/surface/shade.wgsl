@@ -11,6 +11,9 @@ const SHOW_STEPS: u32 = 4u;
 const SHOW_MIPLEVEL: u32 = 16u;
 const SHOW_LODTINT: u32 = 17u;
 
+// A light lower above the reference surface than this, as a sine, is not up: its way would have no end.
+const LIGHT_LEVEL: f32 = 1e-4;
+
 struct Shaded {
     hit: Hit,
     height: f32,        // of the field at the hit's lattice position
@@ -19,21 +22,18 @@ struct Shaded {
     radiance: vec3f,
 }
 
-fn world_of(lattice: vec2f, height: f32) -> vec3f {
-    let plane = (uv_of(lattice) - 0.5) * view.plane_size_metres;
-    return vec3f(plane.x, (height - 1.0) * view.depth_metres, plane.y);
-}
-
 // Share of the light that reaches a point of the surface.
 fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
-    if view.light_is_up == 0.0 || dot(normal_world, view.light_world) <= 0.0 {
+    if dot(normal_world, view.light_world) <= 0.0 || dot(frame_normal(), view.light_world) <= LIGHT_LEVEL {
         return 0.0;
     }
-    let left = detail_shadows(view.light_in_field);
+    let direction = field_direction(view.light_world);
+    let way = direction.xy / direction.z;
+    let left = detail_shadows(way);
     if left == 0.0 {
         return 1.0;
     }
-    return mix(1.0, shadow(shadow_ray(lattice, view.light_in_field, height)), left);
+    return mix(1.0, shadow(shadow_ray(lattice, way, height)), left);
 }
 
 // How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of
@@ -71,7 +71,7 @@ fn shade(ray: Ray) -> Shaded {
 
     let position = world_of(hit.lattice, hit.height);
     let toward_eye = normalize(view.eye_world - position);
-    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, toward_eye, lit));
+    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, dot(normal, frame_normal()), toward_eye, lit));
     let halfway = normalize(toward_eye + view.light_world);
     let diffuse = max(dot(normal, view.light_world), 0.0);
     // Normalised, so that a tighter highlight is a brighter one.
@@ -105,7 +105,11 @@ fn detail_tint(radiance: vec3f) -> vec3f {
 fn shown(shaded: Shaded) -> vec3f {
     switch view.shows {
         case SHOW_HEIGHT: { return vec3f(shaded.height); }
-        case SHOW_NORMAL: { return shaded.normal_world.xzy * vec3f(0.5, -0.5, 0.5) + 0.5; }
+        case SHOW_NORMAL: {
+            // As a normal map has it: u to the right, v down.
+            let along = vec3f(dot(shaded.normal_world, normalize(frame.along_u)), dot(shaded.normal_world, normalize(frame.along_v)), 0.0);
+            return vec3f(along.x, -along.y, dot(shaded.normal_world, frame_normal())) * 0.5 + 0.5;
+        }
         case SHOW_VISIBILITY: { return vec3f(shaded.visibility); }
         case SHOW_STEPS: { return heat(f32(shaded.hit.steps) / 64.0); }
         case SHOW_MIPLEVEL: { return heat(footprint.level / 10.0); }

@@ -36,6 +36,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/channels"
+    "surface/frame"
     "surface/level_of_detail"
     "surface/matter"
     "surface/probe"

@@ -23,13 +23,13 @@ use crate::gpu::{Binding, BindingLayout, Gpu};
 pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albedo: Albedo, entry: &str) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
     let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
-    let mut parts: Vec<String> =
-        [
+    let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
         "surface/ray",
         "common/field",
         sampled,
+        "surface/frame",
         "surface/level_of_detail",
         "surface/ray_map",
         "surface/traversal",
