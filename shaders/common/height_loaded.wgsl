@@ -1,5 +1,5 @@
 // Height samples by four loads, where the adapter cannot filter r32float.
 
-fn sample_field(lattice: vec2f) -> f32 {
+fn sample_height(lattice: vec2f) -> f32 {
     return load_surface(lattice);
 }

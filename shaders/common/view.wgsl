@@ -10,7 +10,7 @@ struct LinearForm {
 // How level of detail is chosen: see surface/level_of_detail.wgsl.
 struct ViewDetail {
     threshold: f32, // mip level beyond which normal mapping alone is left
-    traces: u32,    // 1 where the trace looks no closer than half a pixel
+    traces: u32,    // 1 where the trace heeds it
     filters: u32,   // 1 where light falls on what a pixel sees, not on one point
     pad: u32,
 }

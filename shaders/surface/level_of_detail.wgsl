@@ -12,18 +12,22 @@
 struct Footprint {
     texels: vec2f,    // its extent along u and along v
     level: f32,       // the mip level whose texels are as large as its longer side: 0 or more
-    trace_level: f32, // the level of the heights that the trace looks at: 0 the field itself
+    trace_level: f32, // that of the mean heights at which a traversal stops: 0 the field itself
     flattened: f32,   // 0 the full effect, 1 normal mapping alone
 }
 
 // What the pixel sees, set by whatever knows; a point where nobody does.
 var<private> footprint: Footprint;
 
-// How much finer than the pixel the heights are that a trace looks at, in levels: the cell is then smaller than the pixel
-// ([PDM] §3.4) along its longer side, by half.
-const DETAIL_FINER: f32 = 1.0;
+// By how many levels a traversal stops at cells smaller than the pixel ([PDM] §3.4). A grazing ray meets the tops of what it sees,
+// which means lower: with half a pixel pictures of `sidewalk` differed from those without by 42 of 255 in their 99th percentile,
+// with a sixth by 13, and one step in ten more is all that it costs.
+const DETAIL_FINER: f32 = 2.5;
 // The fewest samples that a count is lowered to.
 const DETAIL_SAMPLES: f32 = 4.0;
+// Where between the mean and the greatest height the plane lies on which normal mapping is left: where grazing rays meet the
+// surface. On the polygon itself the picture would slide by a stone or so before it settles: 22 of 255 instead of 14.
+const DETAIL_PLANE: f32 = 0.4;
 
 // The footprint of a pixel whose uv changes by so much from it to the next on the right, and to the next below.
 fn footprint_of(du_dx: vec2f, du_dy: vec2f) -> Footprint {
@@ -50,36 +54,40 @@ fn detail_left(footprint_over_size: f32) -> f32 {
 // The mean height round a lattice position, at a mip level.
 fn height_over(lattice: vec2f, level: f32) -> f32 {
     if level <= 0.0 {
-        return sample_field(lattice);
+        return sample_height(lattice);
     }
     return textureSampleLevel(normal_map, bilinear, uv_of(lattice), level).w;
 }
 
-// The height that a trace looks at.
-fn sample_height(lattice: vec2f) -> f32 {
-    return height_over(lattice, footprint.trace_level);
-}
-
-// As many samples as cross the same share of the footprint: [POM slides] has them grow toward the viewer. By the root of what the
-// footprint is larger, since counts are chosen for what is near and are few there already.
+// What is left of a count of samples: [POM slides] has them grow toward the viewer. By the root of what the footprint is larger
+// than a texel, since counts are chosen for what is near and are few there already. They go on sampling the field itself: its
+// means are lower than what a grazing ray meets, and it would search the longer for that.
 fn detail_samples(samples: f32) -> f32 {
-    if footprint.trace_level == 0.0 {
+    if view.detail.traces == 0u {
         return samples;
     }
-    return max(samples * exp2(-0.5 * footprint.trace_level), min(samples, DETAIL_SAMPLES));
+    return max(samples * exp2(-0.5 * footprint.level), min(samples, DETAIL_SAMPLES));
+}
+
+// Where a ray meets the plane on which normal mapping is left.
+fn detail_plane(ray: Ray) -> f32 {
+    let mean = textureLoad(normal_map, vec2i(0), i32(textureNumLevels(normal_map)) - 1).w;
+    let top = textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r;
+    return clamp((mix(mean, top, DETAIL_PLANE) - ray.height) / ray.rise, 0.0, ray.t_end);
 }
 
 // The technique's hit, as far as the pixel's level of detail goes: over the last level before the threshold the surface
-// flattens to the polygon, and from there on nothing is traced.
+// flattens to a plane, and beyond it nothing is traced. A piece of a shell has no such plane.
 fn trace_detail(ray: Ray) -> Hit {
-    if footprint.flattened >= 1.0 {
-        return Hit(ray_at(ray, 0.0), ray.height, 0.0, 1u, HIT);
+    let flattened = select(0.0, footprint.flattened, ray.ends == HIT);
+    var hit = Hit(vec2f(0.0), 0.0, 0.0, 1u, HIT);
+    if flattened < 1.0 {
+        hit = trace(ray);
     }
-    let hit = trace(ray);
-    if footprint.flattened == 0.0 || hit.status != HIT {
+    if flattened == 0.0 || hit.status != HIT {
         return hit;
     }
-    let t = hit.t * (1.0 - footprint.flattened);
+    let t = mix(hit.t, detail_plane(ray), flattened);
     return Hit(ray_at(ray, t), ray_height(ray, t), t, hit.steps, HIT);
 }
 

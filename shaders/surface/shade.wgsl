@@ -96,7 +96,7 @@ fn heat(value: f32) -> vec3f {
 
 // [POM] fig. 12: no blue is the full effect, the deepest is normal mapping alone.
 fn detail_tint(radiance: vec3f) -> vec3f {
-    let coarser = saturate(footprint.trace_level / max(view.detail.threshold - 1.0 - DETAIL_FINER, 1.0));
+    let coarser = saturate(footprint.level / max(view.detail.threshold - 1.0, 1.0));
     let blue = mix(0.35 * coarser, 1.0, footprint.flattened);
     return mix(radiance, vec3f(0.08, 0.16, 1.0) * (0.12 + dot(radiance, vec3f(0.2126, 0.7152, 0.0722))), 0.85 * blue);
 }

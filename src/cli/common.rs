@@ -25,7 +25,7 @@ pub struct CommonOptions {
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
     shadow: Option<Shadow>,
 
-    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. `exact` stays exact
+    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. exact stays exact
     /// unless the scene says otherwise [default: the scene's]
     #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
     lod: Option<Detail>,

@@ -9,10 +9,11 @@ use crate::suggest;
 use crate::surface::{Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 3] = [
+pub const EMBEDDED: [(&str, &str); 4] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
+    ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.

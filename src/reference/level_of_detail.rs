@@ -1,6 +1,6 @@
 //! Level of detail in f64: the footprint from two rays a little apart. Specification of `shaders/surface/level_of_detail.wgsl`.
 
-use super::ray_map;
+use super::{HeightField, ray_map};
 use crate::camera::Camera;
 use crate::surface::ray_map::Target;
 
@@ -22,14 +22,20 @@ pub fn flattened(level: f64, threshold: f64) -> f64 {
     (level - (threshold - 1.0)).clamp(0.0, 1.0)
 }
 
-/// The level of the heights that a trace looks at.
+/// The level of the mean heights at which a traversal stops in a pixel of this level.
 pub fn trace_level(level: f64) -> f64 {
-    (level - 1.0).max(0.0)
+    (level - 2.5).max(0.0)
 }
 
-/// The samples that are left of a count.
-pub fn samples(count: f64, trace_level: f64) -> f64 {
-    (count * (-0.5 * trace_level).exp2()).max(count.min(4.0))
+/// The height of the plane on which normal mapping is left: above the mean by two fifths of the way to the greatest.
+pub fn plane(field: &HeightField) -> f64 {
+    let mean = field.heights.iter().map(|height| f64::from(*height)).sum::<f64>() / field.heights.len() as f64;
+    mean + 0.4 * (field.range[1] - mean)
+}
+
+/// The samples that are left of a count in a pixel of this level.
+pub fn samples(count: f64, level: f64) -> f64 {
+    (count * (-0.5 * level).exp2()).max(count.min(4.0))
 }
 
 /// The exponent of a highlight on normals whose mean has this length (Toksvig 2005).

@@ -83,6 +83,13 @@ pub fn normal_mip(level: usize) -> f64 {
     (1 + level) as f64 * NORMAL_COMPONENT
 }
 
+/// Mip level of a pixel: a gradient of f32 coefficients less a position's share of another, and the logarithm of it.
+pub const MIP_LEVEL: f64 = 1e-3;
+
+/// How far a hundredth of a level or so may move the height of the coarse surface: the difference of two neighbouring levels of
+/// mean heights on a smooth field, which is some tenths, over a hundred steps or so; a level that popped would move it by all.
+pub const DETAIL_STEP: f64 = 0.02;
+
 /// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
 /// two or three.
 pub const GOLDEN_LEVELS: u8 = 3;

@@ -1,5 +1,6 @@
 //! How it is seen.
 
+mod level_of_detail;
 mod ray_map;
 mod shadow_hard;
 mod shadow_none;

@@ -13,7 +13,7 @@ use self::widgets::{Control, choice, colour, group, value};
 use super::hand::{Brush, BrushKind};
 use super::input::{Action, GESTURES, SHORTCUTS};
 use super::readings::{self, Readings};
-use crate::scene::{Boundary, Rain, Scene};
+use crate::scene::{Boundary, Lod, Rain, Scene};
 use crate::surface::{Albedo, Shadow, Shows, Technique};
 
 /// What the scroll bar takes of the panel, points.
@@ -149,6 +149,7 @@ impl Panel {
     fn groups(&mut self, ui: &mut Ui, readings: &Readings, actions: &mut Vec<Action>) {
         self.scene_group(ui, actions);
         self.surface_group(ui);
+        self.detail_group(ui);
         self.light_group(ui);
         self.material_group(ui);
         self.simulation_group(ui);
@@ -229,6 +230,31 @@ impl Panel {
             *trace = was.clone();
             *plane = plane_was.clone();
             *shows = Shows::Picture;
+        }
+    }
+
+    fn detail_group(&mut self, ui: &mut Ui) {
+        let (lod, was) = (&mut self.scene.lod, &self.original.lod);
+        let changed = lod != was;
+        let reset = group(ui, "Level of detail", true, Some(changed), |ui| {
+            let mut on = lod.threshold.is_some();
+            let tip = "Looks less closely where a pixel sees much of the surface ([POM] §3.3)";
+            if ui.checkbox(&mut on, "Level of detail on").on_hover_text(tip).changed() {
+                lod.threshold = on.then(|| was.threshold.unwrap_or(Lod::USUAL_THRESHOLD));
+            }
+            if let Some(threshold) = &mut lod.threshold {
+                let tip = "Mip level beyond which normal mapping alone is left, and nothing is marched";
+                let control = Control::new("Threshold", "", 0.0, 10.0).decimals(1).tip(tip);
+                value(ui, &control, threshold, was.threshold.unwrap_or(Lod::USUAL_THRESHOLD));
+                let tip = "Else the exact trace, too, stops at cells a fraction of a pixel ([PDM] §3.4)";
+                ui.checkbox(&mut lod.keep_exact, "Keep exact exact").on_hover_text(tip);
+            } else {
+                let tip = "Light falls on what a pixel sees, not on one point of it: means of normals, and roughness for what they average away";
+                ui.checkbox(&mut lod.filter, "Filter the light").on_hover_text(tip);
+            }
+        });
+        if reset {
+            *lod = was.clone();
         }
     }
 
