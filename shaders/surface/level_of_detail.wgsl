@@ -96,14 +96,15 @@ fn light_level() -> f32 {
     return select(0.0, footprint.level, view.detail.filters == 1u);
 }
 
-// The normal of what the pixel sees round a lattice position: unit, in the world; and how long the mean of the unit normals there
+// The normal of what the pixel sees round a lattice position where the reference surface has the normal `reference`: unit, in the
+// world; and how long the mean of the unit normals there
 // is, 1 where they are all the same.
-fn normal_over(lattice: vec2f) -> vec4f {
+fn normal_over(lattice: vec2f, reference: vec3f) -> vec4f {
     let level = light_level();
     let mean = textureSampleLevel(normal_map, bilinear, uv_of(lattice), level).xyz;
     let length = length(mean);
     // Seen closer than the texels, what the bilinear filter takes off a unit normal is no roughness.
-    return vec4f(frame_normal_of(mean), mix(1.0, min(length, 1.0), saturate(level)));
+    return vec4f(relief_normal(mean / length, reference), mix(1.0, min(length, 1.0), saturate(level)));
 }
 
 // The exponent of a highlight on normals whose mean has this length (Toksvig 2005, "Mipmapping Normal Maps").

@@ -61,12 +61,16 @@ fn plane_coverage(pixel: PixelRay) -> f32 {
     if !ray_map_looks_down(pixel.denominator) {
         return 0.0;
     }
-    // The gradient of a quotient of two linear forms.
+    // A border is a line of the picture: where a linear form less a share of the denominator is 0. A quotient's own gradient would
+    // find the plane everywhere along the horizon, where a pixel sees as much of it as lies before it.
+    let from_middle = ray_map_from_middle(pixel);
+    let half = 0.5 * view.repeat * vec2f(view.field_size);
+    let border = select(-half, half, from_middle > vec2f(0.0)) + 0.5 * vec2f(view.field_size) - 0.5;
     let slope = view.denominator.exact.xy;
     let per_pixel = vec2f(
-        length(view.lattice_x.exact.xy - pixel.lattice.x * slope),
-        length(view.lattice_y.exact.xy - pixel.lattice.y * slope),
+        length(view.lattice_x.exact.xy - border.x * slope),
+        length(view.lattice_y.exact.xy - border.y * slope),
     ) / pixel.denominator;
-    let inside = (0.5 * view.repeat * vec2f(view.field_size) - abs(ray_map_from_middle(pixel))) / per_pixel;
+    let inside = (half - abs(from_middle)) / per_pixel;
     return clamp(min(inside.x, inside.y) + 0.5, 0.0, 1.0);
 }

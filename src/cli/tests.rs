@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
+use crate::mesh::{MeshSource, Shape};
 use crate::surface::{Shadow, Technique};
 
 fn parse(line: &str) -> Result<Command, Refusal> {
@@ -47,6 +48,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --adapter llvm --backend gl -v \
+         --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
     assert_eq!(options.common.scene, "a.toml");
@@ -66,6 +68,9 @@ fn values_arrive() {
             seed: Some(u64::MAX),
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
+            mesh: Some(MeshSource::Shape(Shape::Torus)),
+            shell: true,
+            displaced_depth: true,
         }
     );
     assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));

@@ -2,6 +2,7 @@
 
 use super::Channel;
 use crate::io::scene_file::{CameraPlacement, FieldSize};
+use crate::mesh::MeshSource;
 use crate::scene;
 use crate::suggest;
 use crate::surface::{Shadow, Technique};
@@ -38,6 +39,10 @@ pub(super) fn lod(text: &str) -> Result<Detail, String> {
             .map(|level| Detail(Some(level as f32)))
             .map_err(|problem| format!("{problem}, or off")),
     }
+}
+
+pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
+    text.parse()
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {

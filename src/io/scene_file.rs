@@ -4,7 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::height_image::{self, HeightImage, ImageError};
-use crate::scene::{Base, Camera, Scene, SceneError, VERSION};
+use super::mesh_file::{self, MeshError};
+use crate::mesh::{Mesh, MeshSource};
+use crate::scene::{self, Base, Camera, Scene, SceneError, VERSION};
 use crate::suggest;
 use crate::surface::{Shadow, Technique};
 
@@ -48,6 +50,12 @@ pub struct SceneOverrides {
     pub field: Option<FieldSize>,
     /// Depth of h = 0, metres.
     pub depth_metres: Option<f32>,
+    /// The mesh that carries the relief.
+    pub mesh: Option<MeshSource>,
+    /// Draw its shell.
+    pub shell: bool,
+    /// Write the relief's depth.
+    pub displaced_depth: bool,
     /// How the surface is traced.
     pub technique: Option<Technique>,
     /// The shadow upon it.
@@ -67,6 +75,8 @@ pub struct SceneOverrides {
 pub struct LoadedScene {
     /// The scene, with the field's size as it will be.
     pub scene: Scene,
+    /// The mesh that carries the relief; none: the plane.
+    pub mesh: Option<Mesh>,
     image: Option<HeightImage>,
 }
 
@@ -114,6 +124,9 @@ pub enum SceneFileError {
     /// Its image is unfit.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// Its mesh is unfit.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// There is nothing that a range could map.
     #[error("--height-range maps the values of an image, and this scene has none: name one with --height")]
     RangeWithoutImage,
@@ -162,7 +175,19 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
     if overrides.camera.is_none() && !given.camera {
         scene.camera = scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
     }
-    Ok(LoadedScene { scene, image })
+    let mesh = match &scene.mesh {
+        Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
+        None => None,
+    };
+    Ok(LoadedScene { scene, mesh, image })
+}
+
+fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
+    let mesh = mesh_file::load(&settings.source, tile_metres)?.tiled(settings.tiles);
+    Ok(match settings.radius_metres {
+        Some(radius) => mesh.fitted(radius),
+        None => mesh,
+    })
 }
 
 /// What a file says itself, where its absence means something else than a default value.
@@ -212,6 +237,9 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
     {
         *image = path.parent().unwrap_or(Path::new("")).join(&image);
     }
+    if let Some(mesh) = &mut scene.mesh {
+        mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
+    }
     let field_size = table.get("field").is_some_and(|field| field.get("size").is_some());
     Ok((scene, Given { field_size, camera: table.contains_key("camera") }))
 }
@@ -244,6 +272,11 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(depth) = overrides.depth_metres {
         scene.plane.depth_metres = depth;
     }
+    if let Some(source) = &overrides.mesh {
+        scene.mesh = Some(scene::Mesh { source: source.clone(), tiles: [1.0, 1.0], ..scene::Mesh::default() });
+    }
+    scene.trace.shell |= overrides.shell;
+    scene.trace.displaced_depth |= overrides.displaced_depth;
     if let Some(technique) = overrides.technique {
         scene.trace.technique = technique;
     }

@@ -68,7 +68,7 @@ pub fn start(loaded: &LoadedScene) -> Start {
         // Only an image has no heights of its own.
         None => base::heights(&loaded.scene).unwrap_or_default(),
     };
-    Start::new(&loaded.scene, heights)
+    Start::new(&loaded.scene, heights, loaded.mesh.clone())
 }
 
 /// Waits for bytes on their way from the GPU.

@@ -225,7 +225,7 @@ impl Session {
         self.apply_scene();
         // An image has no seed.
         if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights);
+            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone());
         }
         self.restart();
         self.panel.say(format!("Seed {seed}"));
