@@ -5,6 +5,7 @@
 
 mod bodies;
 mod framing;
+mod lights;
 mod lod;
 mod validate;
 
@@ -13,9 +14,10 @@ use std::path::PathBuf;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::surface::{Albedo, Shadow, Technique};
+use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
@@ -61,6 +63,9 @@ pub struct Scene {
     /// The light.
     #[serde(default)]
     pub light: Light,
+    /// Other lights, three at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<DirectionalLight>,
     /// What the surface is made of.
     #[serde(default)]
     pub material: Material,
@@ -264,6 +269,10 @@ pub struct Light {
     pub ground: [f32; 3],
     /// Degrees a second that the light travels round the vertical.
     pub turn_degrees_per_second: f32,
+    /// Whether the relief hides it from itself.
+    pub casts_shadow: bool,
+    /// What is behind everything.
+    pub background: Background,
 }
 
 /// What the surface is made of.
@@ -275,10 +284,20 @@ pub struct Material {
     /// Tint of the albedo, linear.
     #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
-    /// Strength of the highlight, 0 to 1.
+    /// What light does to it.
+    pub model: Shading,
+    /// Strength of the highlight, 0 to 1; of `ggx` ½ is the 4 % of most dielectrics.
     pub specular: f32,
-    /// Exponent of the highlight (Blinn–Phong).
+    /// Exponent of the highlight of `phong`.
     pub shininess: f32,
+    /// How rough it is to `ggx`, 0 a mirror, 1 matt.
+    pub roughness: f32,
+    /// How metallic it is to `ggx`, 0 to 1.
+    pub metallic: f32,
+    /// How much of the sky it mirrors, of what Fresnel allows, 0 to 1.
+    pub reflection: f32,
+    /// Index of refraction, where it is transparent.
+    pub refractive_index: f32,
 }
 
 /// Where the surface is seen from.
@@ -334,6 +353,7 @@ impl Default for Scene {
             trace: Trace::default(),
             lod: Lod::default(),
             light: Light::default(),
+            lights: Vec::new(),
             material: Material::default(),
             mesh: None,
             balls: Vec::new(),
@@ -414,13 +434,25 @@ impl Default for Light {
             sky: [0.30, 0.37, 0.47],
             ground: [0.13, 0.10, 0.08],
             turn_degrees_per_second: 0.0,
+            casts_shadow: true,
+            background: Background::Studio,
         }
     }
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { albedo: Albedo::Plain, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
+        Self {
+            albedo: Albedo::Plain,
+            tint: [1.0, 1.0, 1.0],
+            model: Shading::Phong,
+            specular: 0.2,
+            shininess: 32.0,
+            roughness: 0.5,
+            metallic: 0.0,
+            reflection: 0.0,
+            refractive_index: 1.5,
+        }
     }
 }
 

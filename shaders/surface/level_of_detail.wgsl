@@ -7,7 +7,7 @@
 // one pixel down make. So nothing aliases, and what a grazing pixel's short side could still show is lost with the long one.
 //
 // Specification: src/reference/level_of_detail.rs. Needs common/view, common/field, surface/ray,
-// surface/frame and a height part.
+// surface/frame, surface/matter and a height part.
 
 struct Footprint {
     texels: vec2f,    // its extent along u and along v
@@ -116,6 +116,17 @@ fn detail_shininess(shininess: f32, mean_length: f32) -> f32 {
 // (Toksvig's exponent as Beckmann's: α² = 2 / s).
 fn detail_variance(mean_length: f32) -> f32 {
     return 2.0 * (1.0 - mean_length) / mean_length;
+}
+
+// The matter of what the pixel sees, where the mean of its normals has this length. Normals that differ face the light, and the sky
+// out of the valleys between them, as much less as their mean is shorter; and they widen the highlight.
+fn detail_matter(matter: Matter, mean_length: f32) -> Matter {
+    var seen = matter;
+    seen.albedo *= mix(mean_length, 1.0, matter.metallic);
+    seen.shininess = detail_shininess(matter.shininess, mean_length);
+    let alpha = matter.roughness * matter.roughness;
+    seen.roughness = min(sqrt(sqrt(alpha * alpha + detail_variance(mean_length))), 1.0);
+    return seen;
 }
 
 // How much is left of shadows toward a light to which a ray travels so far, in texels, while it climbs by a height of 1: no shadow

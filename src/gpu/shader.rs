@@ -19,8 +19,10 @@ macro_rules! embed {
 /// The parts that the binary carries, by name: the path under `shaders/` without its ending.
 pub const EMBEDDED: &[(&str, &str)] = embed! {
     "common/field"
+    "common/heat"
     "common/height_filtered"
     "common/height_loaded"
+    "common/legend"
     "common/noise"
     "common/region"
     "common/view"
@@ -33,6 +35,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "present"
     "surface/albedo_brick"
     "surface/albedo_cobble"
+    "surface/albedo_glass"
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/ball"
@@ -42,6 +45,9 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/facet"
     "surface/frame"
     "surface/level_of_detail"
+    "surface/light_ggx"
+    "surface/light_phong"
+    "surface/light_probe"
     "surface/matter"
     "surface/plane"
     "surface/probe"
@@ -53,11 +59,16 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/shadow_none"
     "surface/shadow_pom_soft"
     "surface/shell"
+    "surface/sky"
     "surface/surface"
     "surface/trace_exact"
     "surface/trace_normal"
     "surface/trace_pom"
     "surface/traversal"
+    "surface/transparent"
+    "surface/truth_exact"
+    "surface/truth_none"
+    "surface/views"
 };
 
 /// Why WGSL did not become a module. The message keeps naga's annotated source.

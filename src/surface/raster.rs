@@ -134,6 +134,9 @@ pub fn pipeline(
     if let Output::Channels(part) = output {
         constants.push(("CHANNEL_PART", f64::from(part)));
     }
+    if geometry == Geometry::Shell {
+        constants.push(("SHELL_FLAT", shell::FLAT));
+    }
     let blend = (output == Output::Radiance && geometry == Geometry::Plane).then_some(wgpu::BlendState::ALPHA_BLENDING);
     let format = match output {
         Output::Radiance => Radiance::CONTRACT.format,

@@ -9,7 +9,7 @@ use rilievo::io::scene_file::embedded;
 use rilievo::modes::capture::{PICTURE_FORMAT, Picture, read_channels};
 use rilievo::scene::{Lod, Scene};
 use rilievo::stroke::Strokes;
-use rilievo::surface::{Channels, Choice, Shadow, Shows, Technique};
+use rilievo::surface::{Channels, Choice, Display, Shadow, Technique};
 
 use crate::support::gpu::gpu;
 use crate::support::tolerances::{FLIGHT_FLICKER, FLIGHT_MEAN, FLIGHT_P99, FLIGHT_SAVED};
@@ -30,7 +30,7 @@ impl Flight {
         for index in 0..frames {
             let tick = Tick { time_seconds: f64::from(index) / 60.0, ..Tick::default() };
             let (strokes, camera) = (Strokes::default(), Camera::at(&scene.camera, tick.time_seconds));
-            let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+            let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Display::default() };
             let mut encoder = gpu.encoder("flight");
             frame.record(gpu, &mut encoder, &input, Some(picture.view())).expect("there are no strokes");
             frame.finish(gpu, encoder);

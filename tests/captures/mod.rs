@@ -5,6 +5,7 @@ mod flight;
 mod goldens;
 mod positions;
 mod techniques;
+mod views;
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -4,5 +4,7 @@
 pub mod desktop;
 pub mod fields;
 pub mod gpu;
+pub mod lit;
 pub mod rays;
+pub mod seen;
 pub mod tolerances;

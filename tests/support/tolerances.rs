@@ -72,6 +72,11 @@ pub const TANGENT_SHARE: f64 = 1e-4;
 /// diagonal of blocks, mostly).
 pub const ADVERSARIAL_TANGENT_SHARE: f64 = 7e-4;
 
+/// Share of a mesh's pixels that may disagree with brute force because a ray grazes or a silhouette passes within a 256th of a pixel of
+/// its centre: the project's bar is one in ten thousand for the plane; a shell has its silhouettes besides, which are lines of one
+/// pixel in width of which 1/128 can fall either way.
+pub const SHELL_OFF_SHARE: f64 = 5e-3;
+
 /// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
 pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 
@@ -146,3 +151,28 @@ pub const SOFT_STEP: f64 = 1.0 / 64.0;
 
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
 pub const SOFT_VARIATION: f64 = 1.01;
+
+/// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
+/// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
+pub const COMPARED_P99: f64 = 1e-3;
+/// A light model against its f64 reference, of the largest value in the list: some thirty operations at 2⁻²⁴, and a power whose
+/// base is off by one rounding, times an exponent of up to 512.
+pub const LIGHT: f64 = 4e-5;
+
+/// Reciprocity of a light model in f64: rounding alone.
+pub const RECIPROCITY: f64 = 1e-12;
+
+/// The integral of GGX over the hemisphere, by a quadrature of 4,000 angles that follow the lobe.
+pub const DISTRIBUTION_INTEGRAL: f64 = 1e-6;
+
+/// What a directional albedo may exceed 1 by: the error of its quadrature.
+pub const FURNACE: f64 = 1e-4;
+
+/// Single-scatter loss against what the shader's header states: its last digit.
+pub const FURNACE_STATED: f64 = 1e-3;
+
+/// The sky against its f64 reference, and its mean against the colours that it is made of: the horizon's soft edge lends each
+/// half a ten-thousandth of the other.
+pub const SKY: f64 = 1e-6;
+/// See [`SKY`].
+pub const SKY_MEAN: f64 = 2e-4;

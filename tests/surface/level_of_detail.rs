@@ -35,8 +35,7 @@ fn scene(technique: Technique, lod: Lod) -> Scene {
 fn derived(gpu: &Gpu, scene: &Scene, kind: Kind) -> (HeightField, Field) {
     let heights = kind.field(scene.field.size, scene.field.addressing);
     let field = upload(gpu, &heights);
-    let (normals, mips) =
-        (Normals::new(gpu).expect("the shader compiles"), NormalMips::new(gpu).expect("the shader compiles"));
+    let (normals, mips) = (Normals::new(gpu).expect("the shader compiles"), NormalMips::new(gpu).expect("the shader compiles"));
     let (normals_set, mips_set) = (normals.bind(gpu, &field), mips.bind(gpu, &field));
     let all = [Region::all(field.size)];
     run(gpu, |recorder| {
