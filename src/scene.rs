@@ -6,6 +6,7 @@
 mod bodies;
 mod framing;
 mod lights;
+mod lod;
 mod techniques;
 mod validate;
 
@@ -18,6 +19,7 @@ use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
+pub use lod::{LOD_THRESHOLD, Lod};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
@@ -57,6 +59,9 @@ pub struct Scene {
     /// How the surface is traced.
     #[serde(default)]
     pub trace: Trace,
+    /// How closely it is looked at from afar.
+    #[serde(default)]
+    pub lod: Lod,
     /// The light.
     #[serde(default)]
     pub light: Light,
@@ -102,8 +107,12 @@ pub enum Addressing {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plane {
-    /// Extent along x, metres. The extent along z follows from the field's aspect: texels are square.
+    /// Extent of the field along x, metres. The extent along z follows from the field's aspect: texels are square.
     pub width_metres: f32,
+    /// How often the plane shows the field along u and v. One copy stays where the only one would be, the others surround it:
+    /// uv leaves 0 to 1, and all that says where a uv lies holds as it stands.
+    #[serde(deserialize_with = "exactly")]
+    pub repeat: [u32; 2],
     /// Depth of h = 0 below the plane, metres.
     pub depth_metres: f32,
 }
@@ -331,6 +340,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// Metres a second that eye and target travel along x, y and z.
+    #[serde(deserialize_with = "exactly")]
+    pub fly_metres_per_second: [f64; 3],
 }
 
 fn one() -> f32 {
@@ -363,6 +375,7 @@ impl Default for Scene {
             wave: None,
             shots: None,
             trace: Trace::default(),
+            lod: Lod::default(),
             light: Light::default(),
             lights: Vec::new(),
             material: Material::default(),
@@ -381,7 +394,7 @@ impl Default for FieldSettings {
 
 impl Default for Plane {
     fn default() -> Self {
-        Self { width_metres: 1.0, depth_metres: 0.1 }
+        Self { width_metres: 1.0, repeat: [1, 1], depth_metres: 0.1 }
     }
 }
 
@@ -486,6 +499,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            fly_metres_per_second: [0.0; 3],
         }
     }
 }

@@ -100,7 +100,7 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
     fs::write(path.join("far.toml"), "version = 9\n").expect("the directory can be written");
     let before = names(path);
     for (arguments, part) in [
-        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall, relief, fur and grass?"),
+        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall, relief, sidewalk, fur and grass?"),
         (&["--scene", "missing.toml"], "no such file"),
         (&["--scene", "./"], "directory"),
         (&["--scene", "broken.toml"], "broken.toml, line 3: unknown field `courrant`"),

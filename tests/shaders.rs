@@ -5,6 +5,7 @@ use std::mem::{offset_of, size_of};
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::ComposeParams;
+use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
@@ -13,6 +14,7 @@ use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
 use rilievo::scene::{PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
+use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::raster::{Geometry, RasterVertex};
@@ -24,8 +26,9 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 6] = [
+    let fixed: [&[&str]; 7] = [
         &["common/region", "field/compose"],
+        &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
@@ -179,8 +182,11 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 near_metres,
                 forward_world,
                 balls,
+                repeat,
+                detail,
             }),
         ),
+        ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),
         ("Ball", layout!(Ball { centre, radius, colour })),
         ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
         ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
@@ -190,6 +196,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
+        ("NormalMipsParams", layout!(NormalMipsParams { region, source_size, size, last_weight })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
         ("PresentSide", layout!(PresentSide { tone_map, legend })),

@@ -32,6 +32,10 @@ struct TraversalWay {
     top: i32,              // the coarsest level
 }
 
+// How coarse a surface the traversal looks for: the mip level of the mean heights at which it stops, 0 for the field itself ([PDM]
+// §3.4). What sets it resets it.
+var<private> traversal_detail: f32;
+
 // Where the ray is.
 struct TraversalPlace {
     cell: vec2i,  // of level 0, in the field's tile
@@ -137,7 +141,8 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
     // measured best.
     let start = ray.lattice + t_begin * travel;
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
-    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
+    let finest = min(i32(traversal_detail), way.top);
+    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, finest, way.top);
     var place = traversal_place(ray, way, start, level);
 
     var t = t_begin;
@@ -165,7 +170,7 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
             t_under = select(select(2.0 * t_end + 1.0, t, t <= t_bound), max(t, t_bound), falls);
             let enters = t_under <= t_out;
             crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
-            arrived = enters && place.level == 0;
+            arrived = enters && place.level == finest;
             if !arrived {
                 if !enters && t_out >= t_end {
                     return end_of(ray, steps);
@@ -178,7 +183,12 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
         if !arrived {
             break;
         }
-        let hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
+        var hit: f32;
+        if traversal_detail > 0.0 {
+            hit = traversal_coarse_leaf(ray, t_under, t_out);
+        } else {
+            hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
+        }
         if hit <= 1.0 {
             let t_hit = t_under + hit * (t_out - t_under);
             return Hit(ray_at(ray, t_hit), ray_height(ray, t_hit), t_hit, steps, HIT);
@@ -187,9 +197,33 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
             return end_of(ray, steps);
         }
         t = t_out;
-        place = traversal_across(way, place, place.cell, crosses);
+        place = traversal_across(way, place, traversal_leaving(ray, way, place, t * travel, crosses), crosses);
     }
     return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, CAPPED);
+}
+
+// The cell in which a ray that has come so far leaves the place's node, which may be of any level.
+fn traversal_leaving(ray: Ray, way: TraversalWay, place: TraversalPlace, gone: vec2f, crosses: vec2<bool>) -> vec2i {
+    if place.level == 0 {
+        return place.cell;
+    }
+    let scale = vec2u(u32(place.level));
+    let node = traversal_node(way, place, place.level);
+    let first = max(node << scale, vec2i(-1));
+    let last = select(((node + 1) << scale) - 1, way.cells - 1, node == traversal_nodes(way, place.level) - 1);
+    let there = clamp(vec2i(floor(ray.lattice + gone)) - place.tile, first, last);
+    return select(there, select(last, first, way.backward), crosses);
+}
+
+// The same of a way through a node of any level, against the mean heights there: their surface is nearly straight over a node of
+// its own level, and moves smoothly as the level does, so that nothing pops.
+fn traversal_coarse_leaf(ray: Ray, t_in: f32, t_out: f32) -> f32 {
+    let enter = ray_height(ray, t_in) - height_over(ray_at(ray, t_in), traversal_detail);
+    let leave = ray_height(ray, t_out) - height_over(ray_at(ray, t_out), traversal_detail);
+    if enter <= 0.0 {
+        return 0.0;
+    }
+    return select(2.0, enter / (enter - leave), leave <= 0.0);
 }
 
 // The corners of the place's cell, which is one of the field's or the half cell before it: no remainder to take, as load_corners

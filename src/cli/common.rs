@@ -7,7 +7,7 @@ use clap::Args;
 use super::Verbosity;
 use super::display::DisplayOptions;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
+    Detail, backend, camera, depth, field, fov, height_range, lod, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
     pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, size, switch, technique, technique_help,
     whole_u64,
 };
@@ -47,6 +47,11 @@ pub struct CommonOptions {
 
     #[arg(long, value_name = "LEAF", value_parser = pyramid_leaf, help = pyramid_leaf_help(), help_heading = "Scene")]
     pyramid_leaf: Option<PyramidLeaf>,
+
+    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. exact stays exact
+    /// unless the scene says otherwise [default: the scene's]
+    #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
+    lod: Option<Detail>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -114,6 +119,7 @@ impl CommonOptions {
             displaced_depth: self.displaced_depth,
             technique: self.technique,
             shadow: self.shadow,
+            lod: self.lod.map(|detail| detail.0),
             shading: self.shading,
             samples: self.samples,
             pom_counts: self.pom_counts,

@@ -49,7 +49,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --adapter llvm --backend gl -v \
          --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -66,6 +66,7 @@ fn values_arrive() {
             depth_metres: Some(0.25),
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
+            lod: Some(Some(2.5)),
             shading: None,
             samples: Some([4, 20]),
             pom_counts: Some(PomCounts::Texels),
@@ -154,6 +155,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
         ("gain", "0 -1 nan inf x 1e9"),
         ("fov", "0 -45 180 nan inf x"),
+        ("lod", "-1 17 nan on x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),

@@ -104,6 +104,20 @@ pub(super) fn sample_range(text: &str) -> Result<[u32; 2], String> {
     }
 }
 
+/// A threshold of the level of detail, or none: off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Detail(pub(super) Option<f32>);
+
+#[expect(clippy::cast_possible_truncation, reason = "a mip level has no use for more digits")]
+pub(super) fn lod(text: &str) -> Result<Detail, String> {
+    match text {
+        "off" => Ok(Detail(None)),
+        _ => number_within(text, scene::LOD_THRESHOLD)
+            .map(|level| Detail(Some(level as f32)))
+            .map_err(|problem| format!("{problem}, or off")),
+    }
+}
+
 pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
     text.parse()
 }

@@ -5,10 +5,12 @@
 
 pub mod balls;
 pub mod compose;
+pub mod level_of_detail;
 pub mod light_disc;
 pub mod light_ggx;
 pub mod light_phong;
 pub mod march;
+pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;

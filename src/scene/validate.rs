@@ -5,7 +5,8 @@ use std::fmt;
 use crate::surface::view::BALLS_MAX;
 
 use super::{
-    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, Light, Material, Mesh, Obstacle, Scene, Shots, Trace, VERSION, Wave,
+    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Trace,
+    VERSION, Wave,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -105,10 +106,14 @@ impl Scene {
         }
         number("plane.width_metres", self.plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
         number("plane.depth_metres", self.plane.depth_metres, DEPTH_METRES)?;
+        // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
+        let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
+        numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
+        self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
         validate_material(&self.material)?;
@@ -297,12 +302,13 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
         "camera.orbit_degrees_per_second",
         camera.orbit_degrees_per_second,
         Range::from_to(-3600.0, 3600.0, "degrees per second"),
-    )
+    )?;
+    numbers("camera.fly_metres_per_second", &camera.fly_metres_per_second, Range::from_to(-1e4, 1e4, "metres per second"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Rain};
+    use super::super::{Boundary, Lod, Rain};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -316,6 +322,7 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
+            lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()
         }

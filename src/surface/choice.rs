@@ -135,12 +135,26 @@ pub enum Shows {
     Level = 6,
     /// How far the point that the technique found lies from the one of the exact traversal, as heat.
     Error = 7,
+    /// The mip level of the pixel, as heat.
+    MipLevel = 16,
+    /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
+    LodTint = 17,
 }
 
 impl Shows {
     /// Every view, in the order in which a key cycles them.
-    pub const ALL: &'static [Self] =
-        &[Self::Picture, Self::Height, Self::Normal, Self::UvOffset, Self::Visibility, Self::Steps, Self::Level, Self::Error];
+    pub const ALL: &'static [Self] = &[
+        Self::Picture,
+        Self::Height,
+        Self::Normal,
+        Self::UvOffset,
+        Self::Visibility,
+        Self::Steps,
+        Self::Level,
+        Self::Error,
+        Self::MipLevel,
+        Self::LodTint,
+    ];
 
     /// Its name on the command line.
     pub const fn name(self) -> &'static str {
@@ -153,6 +167,8 @@ impl Shows {
             Self::Steps => "steps",
             Self::Level => "pyramid-level",
             Self::Error => "error",
+            Self::MipLevel => "mip-level",
+            Self::LodTint => "lod-tint",
         }
     }
 
@@ -160,9 +176,9 @@ impl Shows {
     pub fn heat_top(self, gain: f32) -> Option<f32> {
         match self {
             Self::Steps => Some(Self::STEPS_TOP as f32),
-            Self::Level => Some(Self::LEVELS_TOP as f32),
+            Self::Level | Self::MipLevel => Some(Self::LEVELS_TOP as f32),
             Self::Error => Some(1.0 / gain),
-            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset => None,
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LodTint => None,
         }
     }
 
@@ -170,11 +186,11 @@ impl Shows {
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Steps => "height samples or nodes",
-            Self::Level => "levels",
+            Self::Level | Self::MipLevel => "levels",
             Self::Error => "texels",
             Self::Height => "of the depth",
             Self::Visibility => "of the light",
-            Self::Picture | Self::Normal | Self::UvOffset => "",
+            Self::Picture | Self::Normal | Self::UvOffset | Self::LodTint => "",
         }
     }
 
@@ -200,6 +216,8 @@ impl Shows {
             Self::Steps => "Steps a pixel",
             Self::Level => "Level of the pyramid",
             Self::Error => "Error against exact",
+            Self::MipLevel => "Mip level",
+            Self::LodTint => "Level of detail in blue",
         }
     }
 }

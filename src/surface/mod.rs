@@ -4,6 +4,7 @@ pub mod channels;
 pub mod choice;
 pub mod display;
 pub mod facet;
+pub mod level_of_detail;
 pub mod light_probe;
 pub mod micropolygon;
 pub mod probe;
@@ -93,6 +94,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "common/field",
         sampled,
         "surface/frame",
+        "surface/level_of_detail",
         "surface/ray_map",
         "surface/traversal",
         "surface/light_disc",

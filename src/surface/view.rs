@@ -7,6 +7,7 @@ use crate::field::base;
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
+use super::level_of_detail::ViewDetail;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
 use super::{Display, micropolygon};
 
@@ -104,6 +105,9 @@ pub struct View {
     pub forward_world: [f32; 3],
     pub pad_forward: u32,
     pub balls: [Ball; BALLS_MAX],
+    pub repeat: [f32; 2],
+    pub pad_repeat: [f32; 2],
+    pub detail: ViewDetail,
 }
 
 impl View {
@@ -181,6 +185,8 @@ impl View {
             near_metres: camera.near_metres as f32,
             forward_world: camera.forward().as_vec3().to_array(),
             balls,
+            repeat: scene.plane.repeat.map(|times| times as f32),
+            detail: ViewDetail::new(scene),
             ..Self::default()
         };
         view.over(camera, &target)
@@ -259,6 +265,8 @@ impl ViewSet {
             address_mode_v: address_mode,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
+            // Between levels as well as texels: what is read at a level of detail moves smoothly with it.
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
         let uniform = Uniform::new(gpu, "view");

@@ -83,6 +83,30 @@ pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 /// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
 pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
 
+/// A component of a mean of normals: each level is stored as a half, whose rounding the levels above it inherit.
+pub fn normal_mip(level: usize) -> f64 {
+    (1 + level) as f64 * NORMAL_COMPONENT
+}
+
+/// Mip level of a pixel: a gradient of f32 coefficients less a position's share of another, and the logarithm of it.
+pub const MIP_LEVEL: f64 = 1e-3;
+
+/// Height of the plane that is left of a relief: its mean is stored as a half, once a level.
+pub const MEAN_PLANE: f64 = 4e-3;
+
+/// How far a sixtieth of a level may move the height of the coarse surface: the difference of two neighbouring levels of mean
+/// heights on a smooth field is some tenths, and a level that popped would move it by all of that.
+pub const DETAIL_STEP: f64 = 0.01;
+
+/// A flight with level of detail against the same without, levels of 255 of its pictures: the project's bars.
+pub const FLIGHT_MEAN: f64 = 4.0;
+/// The 99th percentile of the same.
+pub const FLIGHT_P99: u8 = 16;
+/// Share of the steps that level of detail saves on it.
+pub const FLIGHT_SAVED: f64 = 0.4;
+/// The 99th percentile of the differences from frame to frame, in those of the flight without.
+pub const FLIGHT_FLICKER: f64 = 1.1;
+
 /// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
 /// two or three.
 pub const GOLDEN_LEVELS: u8 = 3;

@@ -2,6 +2,7 @@
 
 mod balls;
 mod facet;
+mod level_of_detail;
 mod light_disc;
 mod light_ggx;
 mod light_phong;
