@@ -87,6 +87,19 @@ pub struct CommonOptions {
     #[arg(long, value_name = "LO,HI", value_parser = height_range, allow_hyphen_values = true, help_heading = "Scene")]
     height_range: Option<[f32; 2]>,
 
+    /// Text in relief, as large as fits, that replaces the scene's starting height; \n begins another line [default: none, the scene's own]
+    #[arg(long, value_name = "STRING", value_parser = sign, allow_hyphen_values = true, help_heading = "Scene")]
+    #[arg(conflicts_with_all = ["height", "height_range"])]
+    text: Option<String>,
+
+    /// A TTF or OTF file for the text [default: the scene's, the program's own unless its file says otherwise]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["height", "height_range"], help_heading = "Scene")]
+    font: Option<PathBuf>,
+
+    /// A PNG file whose colours lie over the whole field [default: none, the scene's albedo]
+    #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
+    albedo: Option<PathBuf>,
+
     /// Depth of height 0 below the plane, metres [default: the scene's]
     #[arg(long, value_name = "METRES", value_parser = depth, allow_negative_numbers = true, help_heading = "Scene")]
     depth: Option<f32>,
@@ -110,6 +123,9 @@ impl CommonOptions {
         SceneOverrides {
             height: self.height.clone(),
             height_range: self.height_range,
+            text: self.text.clone(),
+            font: self.font.clone(),
+            albedo: self.albedo.clone(),
             field: self.field,
             depth_metres: self.depth,
             technique: self.technique,
@@ -347,7 +363,8 @@ fn sentence(error: &clap::Error) -> String {
     // clap says `--size <WxH>`; the flag alone reads better.
     let flag = |kind| text(kind).map(|argument| argument.split(" <").next().unwrap_or_default().to_owned());
     let argument = flag(ContextKind::InvalidArg).unwrap_or_default();
-    let value = text(ContextKind::InvalidValue).unwrap_or_default();
+    // One sentence is one line, whatever someone writes into an argument.
+    let value = text(ContextKind::InvalidValue).unwrap_or_default().replace(char::is_control, "\u{fffd}");
     match error.kind() {
         ErrorKind::UnknownArgument => match text(ContextKind::SuggestedArg) {
             Some(near) => format!("unknown argument `{argument}`: did you mean `{near}`, of those that `--help` lists?"),
@@ -510,6 +527,12 @@ fn height_range(text: &str) -> Result<[f32; 2], String> {
     }
 }
 
+/// The words of a sign. A shell's quotes keep `\n` as two characters: here it ends a line, as in a scene.
+fn sign(text: &str) -> Result<String, String> {
+    let text = text.replace("\\n", "\n");
+    scene::check_text(&text).map(|()| text)
+}
+
 fn camera(text: &str) -> Result<CameraPlacement, String> {
     let Some([ex, ey, ez, tx, ty, tz]) = numbers::<6>(text) else {
         return Err("it must be six numbers, eye and target in metres, like 0,1,1,0,0,0".to_owned());
@@ -561,7 +584,7 @@ mod tests {
     fn values_arrive() {
         let options = capture(
             "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
-             --height-range -5,7.5 --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
+             --height-range -5,7.5 --albedo c.png --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
              --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
         );
         assert_eq!(options.common.scene, "a.toml");
@@ -573,6 +596,9 @@ mod tests {
             SceneOverrides {
                 height: Some("h.png".into()),
                 height_range: Some([-5.0, 7.5]),
+                text: None,
+                font: None,
+                albedo: Some("c.png".into()),
                 field: Some(FieldSize::Width(31)),
                 depth_metres: Some(0.25),
                 technique: Some(Technique::Pom),
@@ -582,6 +608,9 @@ mod tests {
                 vertical_fov_degrees: Some(30.0),
             }
         );
+        let overrides = capture("--text Two\\nlines --font f.ttf").common.overrides();
+        assert_eq!((overrides.text.as_deref(), overrides.font), (Some("Two\nlines"), Some("f.ttf".into())));
+        assert_eq!(capture("--text -a").common.overrides().text.as_deref(), Some("-a"));
         assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));
         assert_eq!(options.channels(), [Channel::Color, Channel::Height, Channel::Lod]);
         assert_eq!(Command::Capture(options).verbosity(), Verbosity::Verbose);

@@ -4,6 +4,7 @@
 //! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
 
 mod framing;
+mod text;
 mod validate;
 
 use std::path::PathBuf;
@@ -13,6 +14,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
 
+pub use text::{Text, TextRelief, check_text};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
@@ -109,6 +111,8 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// A sign: text in relief.
+    Text(Text),
     /// An image's heights.
     Image {
         /// A PNG or EXR file.
@@ -251,6 +255,8 @@ pub struct Light {
 pub struct Material {
     /// Its colours.
     pub albedo: Albedo,
+    /// A PNG image over the field, for albedo `image`.
+    pub image: Option<PathBuf>,
     /// Tint of the albedo, linear.
     #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
@@ -391,7 +397,7 @@ impl Default for Light {
 
 impl Default for Material {
     fn default() -> Self {
-        Self { albedo: Albedo::Plain, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
+        Self { albedo: Albedo::Plain, image: None, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
     }
 }
 

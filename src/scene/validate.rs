@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::{Base, Camera, Light, Material, Obstacle, Scene, Shots, Trace, VERSION, Wave};
+use crate::surface::Albedo;
+
+use super::{Base, Camera, Light, Material, Obstacle, Scene, Shots, Text, Trace, VERSION, Wave, check_text};
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
 pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
@@ -129,12 +131,29 @@ fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
         Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} => Ok(()),
+        Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
         Base::Image { range: Some([low, high]), .. } if !(low < high && (high - low).is_finite()) => {
             refuse("base.range", format!("[{low}, {high}]"), "two finite numbers, the first less than the second")
         }
         Base::Image { .. } => Ok(()),
     }
+}
+
+fn validate_text(text: &Text) -> Result<(), SceneError> {
+    if let Err(problem) = check_text(&text.text) {
+        return refuse("base.text", format!("{:?}", text.text), format!("another: {problem}"));
+    }
+    if text.font.as_ref().is_some_and(|font| font.as_os_str().is_empty()) {
+        return refuse("base.font", "empty", "the path of a TTF or OTF font, or left out");
+    }
+    number("base.size", text.size, Range::above(0.0, 1.0, ""))?;
+    // Wider than any stroke; what is wider still would be no letter.
+    number("base.weight", text.weight, Range::from_to(-0.2, 0.2, "em"))?;
+    number("base.bevel", text.bevel, Range::from_to(0.0, 1.0, "em"))?;
+    // Three of them on either side leave room for the text.
+    number("base.frame", text.frame, Range::from_to(0.0, 0.1, "of the shorter side"))?;
+    number("base.grain", text.grain, Range::from_to(0.0, 1.0, "of the depth"))
 }
 
 fn validate_wave(wave: &Wave) -> Result<(), SceneError> {
@@ -204,6 +223,19 @@ fn validate_light(light: &Light) -> Result<(), SceneError> {
 }
 
 fn validate_material(material: &Material) -> Result<(), SceneError> {
+    match &material.image {
+        Some(path) if path.as_os_str().is_empty() => {
+            return refuse("material.image", "empty", "the path of a PNG file, or left out");
+        }
+        None if material.albedo == Albedo::Image => {
+            return refuse(
+                "material.albedo",
+                "image",
+                "another, or `material.image` the path of a PNG file (--albedo names one)",
+            );
+        }
+        _ => {}
+    }
     numbers("material.tint", &material.tint, Range::from_to(0.0, 10.0, ""))?;
     number("material.specular", material.specular, Range::from_to(0.0, 1.0, ""))?;
     number("material.shininess", material.shininess, Range::above(0.0, 1e5, ""))

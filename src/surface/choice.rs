@@ -71,8 +71,12 @@ choices! {
         Plain = "plain", "albedo_plain", "Plain";
         /// Bricks in running bond.
         Brick = "brick", "albedo_brick", "Brick";
+        /// Cast bronze, rubbed bright where it stands out.
+        Bronze = "bronze", "albedo_bronze", "Bronze";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A picture.
+        Image = "image", "albedo_image", "Image";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
     }

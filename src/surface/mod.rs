@@ -1,5 +1,6 @@
 //! How the field is seen: techniques, shadows, shading.
 
+pub mod albedo_image;
 pub mod channels;
 pub mod choice;
 pub mod probe;
@@ -39,17 +40,23 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Water => Vec::new(),
+        Albedo::Plain | Albedo::Bronze | Albedo::Image | Albedo::Water => Vec::new(),
     }
 }
 
-/// Bind group layout 1 of everything that traces: the field.
+/// Bind group layout 1 of everything that traces: the field, and the image over it.
 pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
         gpu,
         "field",
         wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        &[Binding::Float(gpu.filters_r32float()), Binding::Float(false), Binding::Float(true), Binding::Uint],
+        &[
+            Binding::Float(gpu.filters_r32float()),
+            Binding::Float(false),
+            Binding::Float(true),
+            Binding::Uint,
+            Binding::Float(true),
+        ],
     )
 }
 
@@ -62,6 +69,7 @@ pub(crate) fn bind_field(gpu: &Gpu, layout: &BindingLayout, field: &field::Field
             wgpu::BindingResource::TextureView(&field.pyramid.view),
             wgpu::BindingResource::TextureView(&field.normal.view),
             wgpu::BindingResource::TextureView(&field.material.view),
+            wgpu::BindingResource::TextureView(&field.albedo_map.view),
         ],
     )
 }

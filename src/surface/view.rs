@@ -139,6 +139,7 @@ impl ViewSet {
             address_mode_v: address_mode,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
         let uniform = Uniform::new(gpu, "view");

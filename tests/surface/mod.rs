@@ -1,5 +1,6 @@
 //! How it is seen.
 
+mod albedo_image;
 mod ray_map;
 mod shadow_hard;
 mod shadow_none;
