@@ -28,9 +28,13 @@ struct View {
     shadow_samples: f32,
     shadow_strength: f32,
 
-    light_in_field: vec2f,       // lattice travel of a light ray while it climbs by a height of 1
-    light_is_up: f32,            // 1 where the light is above the plane, else 0
+    // The plane's axes, unit vectors in the world, and its middle.
+    u_world: vec3f,
     first_row: u32,              // of the band that channels are written for
+    v_world: vec3f,
+    displaced_depth: u32,        // 1 where the depth of a pixel is that of the relief, 0 where it is that of the polygon
+    up_world: vec3f,
+    origin_world: vec3f,
 
     eye_world: vec3f,
     specular: f32,

@@ -14,7 +14,7 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let metres = plane_metres(point.lattice);
     let grain = fractal_noise(metres * 130.0, 81u);
     let weather = fractal_noise(metres * 7.0, 85u);
-    let level = smoothstep(0.55, 0.98, point.normal_world.y);
+    let level = smoothstep(0.55, 0.98, point.level);
     // Rubbed: the faces that stand out, and what a shot laid bare; rough edges of it keep some skin.
     let rubbed = max(smoothstep(0.72, 0.95, point.height + 0.10 * (grain - 0.5)) * mix(0.45, 1.0, level), stamped.g);
     let green = smoothstep(0.50, 0.95, weather + 0.35 * (0.5 - point.height) + 0.25 * (grain - 0.5)) * (1.0 - rubbed);

@@ -43,7 +43,7 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
     if stamped.b > 0.5 {
         let grain = fractal_noise(plane_metres(point.lattice) * 150.0, 71u);
-        let stone = vec3f(0.46, 0.43, 0.39) * mix(0.75, 1.1, grain) * mix(0.55, 1.0, smoothstep(0.0, 0.9, point.normal_world.y));
+        let stone = vec3f(0.46, 0.43, 0.39) * mix(0.75, 1.1, grain) * mix(0.55, 1.0, smoothstep(0.0, 0.9, point.level));
         return sooty(stone, stamped.r);
     }
     let normal = point.normal_world;

@@ -29,6 +29,7 @@ fn write_channels(@builtin(global_invocation_id) id: vec3u) {
         channels[index] = Channel(vec3f(0.0), -1.0, vec3f(0.0), 0.0, vec2f(0.0), 0.0, 0.0);
         return;
     }
+    frame = plane_frame();
     let shaded = shade(pixel.ray);
     if shaded.hit.status == CAPPED {
         // It found no surface, and says how long it looked.

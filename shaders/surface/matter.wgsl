@@ -5,6 +5,7 @@ struct SurfacePoint {
     world: vec3f,
     height: f32,          // of the field
     normal_world: vec3f,
+    level: f32,           // cosine between the normal and the reference surface's: 1 where the relief is level
     toward_eye: vec3f,    // unit, world
     visibility: f32,      // share of the light that arrives
 }

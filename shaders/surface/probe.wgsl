@@ -18,6 +18,7 @@ fn probe_index(id: vec3u, groups: vec3u) -> u32 {
 @compute @workgroup_size(WORKGROUP)
 fn probe_trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     view = view_buffer;
+    frame = plane_frame();
     let index = probe_index(id, groups);
     if index < arrayLength(&rays) {
         hits[index] = trace(rays[index]);
@@ -27,6 +28,7 @@ fn probe_trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups
 @compute @workgroup_size(WORKGROUP)
 fn probe_shadow(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     view = view_buffer;
+    frame = plane_frame();
     let index = probe_index(id, groups);
     if index < arrayLength(&rays) {
         seen[index] = shadow(rays[index]);

@@ -9,6 +9,9 @@ const SHOW_NORMAL: u32 = 2u;
 const SHOW_VISIBILITY: u32 = 3u;
 const SHOW_STEPS: u32 = 4u;
 
+// A light lower above the reference surface than this, as a sine, is not up: its way would have no end.
+const LIGHT_LEVEL: f32 = 1e-4;
+
 struct Shaded {
     hit: Hit,
     height: f32,        // of the field at the hit's lattice position
@@ -17,23 +20,18 @@ struct Shaded {
     radiance: vec3f,
 }
 
-fn world_of(lattice: vec2f, height: f32) -> vec3f {
-    let plane = (uv_of(lattice) - 0.5) * view.plane_size_metres;
-    return vec3f(plane.x, (height - 1.0) * view.depth_metres, plane.y);
-}
-
-// The normal at a lattice position: field space is u right, v down, out; the world's axes are x, z, y.
+// The world normal at a lattice position.
 fn normal_at(lattice: vec2f) -> vec3f {
-    let normal = normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz);
-    return normal.xzy;
+    return frame_normal_of(normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz));
 }
 
 // Share of the light that reaches a point of the surface.
 fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
-    if view.light_is_up == 0.0 || dot(normal_world, view.light_world) <= 0.0 {
+    if dot(normal_world, view.light_world) <= 0.0 || dot(frame_normal(), view.light_world) <= LIGHT_LEVEL {
         return 0.0;
     }
-    return shadow(shadow_ray(lattice, view.light_in_field, height));
+    let direction = field_direction(view.light_world);
+    return shadow(shadow_ray(lattice, direction.xy / direction.z, height));
 }
 
 // How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of
@@ -68,7 +66,7 @@ fn shade(ray: Ray) -> Shaded {
 
     let position = world_of(hit.lattice, hit.height);
     let toward_eye = normalize(view.eye_world - position);
-    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, toward_eye, lit));
+    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, dot(normal, frame_normal()), toward_eye, lit));
     let halfway = normalize(toward_eye + view.light_world);
     let diffuse = max(dot(normal, view.light_world), 0.0);
     // Normalised, so that a tighter highlight is a brighter one.
@@ -93,7 +91,11 @@ fn heat(value: f32) -> vec3f {
 fn shown(shaded: Shaded) -> vec3f {
     switch view.shows {
         case SHOW_HEIGHT: { return vec3f(shaded.height); }
-        case SHOW_NORMAL: { return shaded.normal_world.xzy * vec3f(0.5, -0.5, 0.5) + 0.5; }
+        case SHOW_NORMAL: {
+            // As a normal map has it: u to the right, v down.
+            let along = vec3f(dot(shaded.normal_world, normalize(frame.along_u)), dot(shaded.normal_world, normalize(frame.along_v)), 0.0);
+            return vec3f(along.x, -along.y, dot(shaded.normal_world, frame_normal())) * 0.5 + 0.5;
+        }
         case SHOW_VISIBILITY: { return vec3f(shaded.visibility); }
         case SHOW_STEPS: { return heat(f32(shaded.hit.steps) / 64.0); }
         default: {

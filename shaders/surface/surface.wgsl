@@ -27,5 +27,6 @@ fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
     if coverage == 0.0 {
         return vec4f(behind, 1.0);
     }
+    frame = plane_frame();
     return vec4f(mix(behind, shown(shade(pixel.ray)), coverage), 1.0);
 }

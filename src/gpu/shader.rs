@@ -37,6 +37,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_plain"
     "surface/albedo_water"
     "surface/channels"
+    "surface/frame"
     "surface/matter"
     "surface/probe"
     "surface/ray"

@@ -23,10 +23,18 @@ use crate::gpu::{Binding, BindingLayout, Gpu};
 pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albedo: Albedo, entry: &str) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
     let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
-    let mut parts: Vec<String> =
-        ["common/view", "common/noise", "surface/ray", "common/field", sampled, "surface/ray_map", "surface/traversal"]
-            .map(str::to_owned)
-            .to_vec();
+    let mut parts: Vec<String> = [
+        "common/view",
+        "common/noise",
+        "surface/ray",
+        "common/field",
+        sampled,
+        "surface/frame",
+        "surface/ray_map",
+        "surface/traversal",
+    ]
+    .map(str::to_owned)
+    .to_vec();
     parts.extend(stems.map(|stem| format!("surface/{stem}")));
     parts
 }

@@ -29,9 +29,14 @@ pub struct View {
     pub pom_samples_max: f32,
     pub shadow_samples: f32,
     pub shadow_strength: f32,
-    pub light_in_field: [f32; 2],
-    pub light_is_up: f32,
+    pub u_world: [f32; 3],
     pub first_row: u32,
+    pub v_world: [f32; 3],
+    pub displaced_depth: u32,
+    pub up_world: [f32; 3],
+    pub pad_up: u32,
+    pub origin_world: [f32; 3],
+    pub pad_origin: u32,
     pub eye_world: [f32; 3],
     pub specular: f32,
     pub light_world: [f32; 3],
@@ -60,8 +65,6 @@ impl View {
         );
         let light = light_direction(scene, time_seconds);
         let texel_metres = scene.texel_metres();
-        let light_is_up = light.y > 1e-4;
-        let climb = if light_is_up { depth_metres / light.y / texel_metres } else { 0.0 };
         Self {
             lattice_x: rays.lattice[0],
             lattice_y: rays.lattice[1],
@@ -78,9 +81,14 @@ impl View {
             pom_samples_max: scene.trace.pom_samples_max as f32,
             shadow_samples: scene.trace.shadow_samples as f32,
             shadow_strength: scene.trace.shadow_strength,
-            light_in_field: [(light.x * climb) as f32, (light.z * climb) as f32],
-            light_is_up: f32::from(u8::from(light_is_up)),
+            u_world: [1.0, 0.0, 0.0],
             first_row: 0,
+            v_world: [0.0, 0.0, 1.0],
+            displaced_depth: 0,
+            up_world: [0.0, 1.0, 0.0],
+            pad_up: 0,
+            origin_world: [0.0; 3],
+            pad_origin: 0,
             eye_world: camera.eye().as_vec3().to_array(),
             specular: scene.material.specular,
             light_world: light.as_vec3().to_array(),

@@ -62,7 +62,8 @@ fn rows_run_from_the_top_interlaced_or_not() {
 
 #[test]
 fn what_is_no_picture_is_refused_in_one_sentence() {
-    let sound = png_bytes([64, 64], ColorType::Rgb, BitDepth::Eight, None, &(0..12288).map(|i| (i * 7) as u8).collect::<Vec<_>>());
+    let sound =
+        png_bytes([64, 64], ColorType::Rgb, BitDepth::Eight, None, &(0..12288).map(|i| (i * 7) as u8).collect::<Vec<_>>());
     let mut huge = sound.clone();
     huge[16..24].copy_from_slice(&[0, 1, 0, 0, 0, 1, 0, 0]);
     for (bytes, part) in [

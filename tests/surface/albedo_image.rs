@@ -20,7 +20,18 @@ fn seen(out: &Path, albedo: &Path, heights: &Path) -> image::RgbImage {
     let path = |path: &Path| path.to_str().expect("temporary directories have plain names").to_owned();
     let (albedo, heights) = (path(albedo), path(heights));
     // At half a metre above a plane 1 m wide, half of the picture's width is as wide as the eye is high.
-    let view = ["--size", "96x48", "--camera", "0,0.5,0,0,0,0", "--fov", "53.13010235415598", "--technique", "normal", "--shadow", "none"];
+    let view = [
+        "--size",
+        "96x48",
+        "--camera",
+        "0,0.5,0,0,0,0",
+        "--fov",
+        "53.13010235415598",
+        "--technique",
+        "normal",
+        "--shadow",
+        "none",
+    ];
     capture(out, &[&["--scene", "relief", "--height", &heights, "--albedo", &albedo], &view[..]].concat());
     image::open(out.join("frame_00000.png")).expect("it is a picture").to_rgb8()
 }

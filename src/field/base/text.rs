@@ -35,7 +35,8 @@ pub fn heights(text: &Text, lettering: &Lettering, size: [u32; 2], texel_metres:
     let grain = f64::from(text.grain);
     let of_texel = |(index, distance): (usize, &f32)| {
         let at = DVec2::new((index % size[0] as usize) as f64 + 0.5, (index / size[0] as usize) as f64 + 0.5);
-        let inside = (f64::from(*distance) + weight).max(if frame > 0.0 { inside_frame(text.relief, at, field, frame) } else { -reach });
+        let inside =
+            (f64::from(*distance) + weight).max(if frame > 0.0 { inside_frame(text.relief, at, field, frame) } else { -reach });
         let cut = ((inside + SOFTNESS_TEXELS) / (bevel + 2.0 * SOFTNESS_TEXELS)).clamp(0.0, 1.0);
         let metres = at * texel_metres / GRAIN_METRES;
         let rough = if grain > 0.0 { grain * fractal_noise(metres.x, metres.y, 51, 4) * (1.0 - cut) } else { 0.0 };

@@ -1,0 +1,132 @@
+//! What every mode takes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Verbosity;
+use super::values::{
+    backend, camera, depth, field, fov, height_range, non_empty, shadow, shadow_help, sign, size, technique, technique_help,
+    whole_u64,
+};
+use crate::gpu::Preference;
+use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
+use crate::surface::{Shadow, Technique};
+
+/// What every mode that shows a scene takes.
+#[derive(Args, Clone, Debug, PartialEq)]
+pub struct CommonOptions {
+    /// A scene's name, or a file that ends in .toml or lies behind a path
+    #[arg(long, value_name = "NAME|FILE.toml", default_value = "ripples", help_heading = "Scene")]
+    pub scene: String,
+
+    #[arg(long, value_name = "T", value_parser = technique, help = technique_help(), help_heading = "Scene")]
+    technique: Option<Technique>,
+
+    #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
+    shadow: Option<Shadow>,
+
+    /// Seed of everything random [default: the scene's]
+    #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
+    seed: Option<u64>,
+
+    /// Size of the picture or window, pixels
+    #[arg(long = "size", value_name = "WxH", value_parser = size, default_value = "960x600", allow_hyphen_values = true)]
+    pub image_size: [u32; 2],
+
+    /// Size of the height field, texels; N alone keeps the aspect of an image [default: the image's, or else the scene's]
+    #[arg(long, value_name = "N|WxH", value_parser = field, allow_negative_numbers = true, help_heading = "Scene")]
+    field: Option<FieldSize>,
+
+    /// A PNG or EXR file whose heights replace the scene's starting height [default: none, the scene's own]
+    #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
+    height: Option<PathBuf>,
+
+    /// The values in the image that become heights 0 and 1 [default: 0,1]
+    #[arg(long, value_name = "LO,HI", value_parser = height_range, allow_hyphen_values = true, help_heading = "Scene")]
+    height_range: Option<[f32; 2]>,
+
+    /// Text in relief, as large as fits, that replaces the scene's starting height; \n begins another line [default: none, the scene's own]
+    #[arg(long, value_name = "STRING", value_parser = sign, allow_hyphen_values = true, help_heading = "Scene")]
+    #[arg(conflicts_with_all = ["height", "height_range"])]
+    text: Option<String>,
+
+    /// A TTF or OTF file for the text [default: the scene's, the program's own unless its file says otherwise]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["height", "height_range"], help_heading = "Scene")]
+    font: Option<PathBuf>,
+
+    /// A PNG file whose colours lie over the whole field [default: none, the scene's albedo]
+    #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
+    albedo: Option<PathBuf>,
+
+    /// Depth of height 0 below the plane, metres [default: the scene's]
+    #[arg(long, value_name = "METRES", value_parser = depth, allow_negative_numbers = true, help_heading = "Scene")]
+    depth: Option<f32>,
+
+    /// Eye and target, metres; replaces every camera motion [default: the scene's, which shows the whole plane]
+    #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ", value_parser = camera, allow_hyphen_values = true, help_heading = "Scene")]
+    camera: Option<CameraPlacement>,
+
+    /// Vertical field of view, degrees [default: the scene's, 45 unless its file says otherwise]
+    #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
+    fov: Option<f64>,
+
+    /// Which machine, and how much it tells.
+    #[command(flatten)]
+    pub machine: MachineOptions,
+}
+
+impl CommonOptions {
+    /// What the arguments change in the scene.
+    pub fn overrides(&self) -> SceneOverrides {
+        SceneOverrides {
+            height: self.height.clone(),
+            height_range: self.height_range,
+            text: self.text.clone(),
+            font: self.font.clone(),
+            albedo: self.albedo.clone(),
+            field: self.field,
+            depth_metres: self.depth,
+            technique: self.technique,
+            shadow: self.shadow,
+            seed: self.seed,
+            camera: self.camera,
+            vertical_fov_degrees: self.fov,
+        }
+    }
+}
+
+/// Which adapter, and how much to tell.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct MachineOptions {
+    /// Use the adapter whose name contains this, in any case [default: $WGPU_ADAPTER_NAME, or else the best there is]
+    #[arg(long, value_name = "SUBSTRING", value_parser = non_empty, help_heading = "Machine")]
+    pub adapter: Option<String>,
+
+    /// vulkan, metal, dx12 or gl [default: $WGPU_BACKEND, or else all of them]
+    #[arg(long, value_name = "BACKEND", value_parser = backend, help_heading = "Machine")]
+    pub backend: Option<wgpu::Backends>,
+
+    /// Tell more on stderr; $RUST_LOG chooses freely [default: notes and warnings]
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "Machine")]
+    verbose: bool,
+
+    /// Tell nothing on stderr but errors [default: notes and warnings]
+    #[arg(short, long, help_heading = "Machine")]
+    quiet: bool,
+}
+
+impl MachineOptions {
+    /// The adapters that may be used, hardware first; the environment completes what the arguments leave open.
+    pub fn preference(&self) -> Preference {
+        Preference { name: self.adapter.clone(), backend: self.backend, ..Preference::default() }.with_environment()
+    }
+
+    pub(super) fn verbosity(&self) -> Verbosity {
+        match (self.quiet, self.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (_, true) => Verbosity::Verbose,
+            _ => Verbosity::Normal,
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The text of a value to the value, or else the rest of the sentence "`--flag` cannot be `text`: …".
+
+use super::Channel;
+use crate::io::scene_file::{CameraPlacement, FieldSize};
+use crate::scene;
+use crate::suggest;
+use crate::surface::{Shadow, Technique};
+
+pub(super) fn technique_help() -> String {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    format!("How the surface is traced: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+pub(super) fn shadow_help() -> String {
+    let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
+    format!("The shadow upon it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+pub(super) fn technique(text: &str) -> Result<Technique, String> {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    Technique::from_name(text).ok_or_else(|| suggest::unknown("technique", text, &names))
+}
+
+pub(super) fn shadow(text: &str) -> Result<Shadow, String> {
+    let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
+    Shadow::from_name(text).ok_or_else(|| suggest::unknown("shadow", text, &names))
+}
+
+pub(super) fn channel(text: &str) -> Result<Channel, String> {
+    let names = Channel::ALL.map(Channel::name);
+    let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
+    found.ok_or_else(|| suggest::unknown("channel", text, &names))
+}
+
+pub(super) fn backend(text: &str) -> Result<wgpu::Backends, String> {
+    match text {
+        "vulkan" => Ok(wgpu::Backends::VULKAN),
+        "metal" => Ok(wgpu::Backends::METAL),
+        "dx12" => Ok(wgpu::Backends::DX12),
+        "gl" => Ok(wgpu::Backends::GL),
+        _ => Err(suggest::unknown("backend", text, &["vulkan", "metal", "dx12", "gl"])),
+    }
+}
+
+pub(super) fn non_empty(text: &str) -> Result<String, String> {
+    if text.is_empty() { Err("it is empty".to_owned()) } else { Ok(text.to_owned()) }
+}
+
+pub(super) fn whole_u64(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("it must be a whole number from 0 to {}", u64::MAX))
+}
+
+pub(super) fn whole_u32(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| format!("it must be a whole number from 0 to {}", u32::MAX))
+}
+
+/// Stamps of a frame. A stamp is 48 bytes before the bins can say that their tiles are too many.
+pub(super) fn stamps(text: &str) -> Result<u32, String> {
+    const MOST: u32 = 1 << 22;
+    whole_u32(text).ok().filter(|count| *count <= MOST).ok_or_else(|| format!("it must be a whole number from 0 to {MOST}"))
+}
+
+fn positive_u32(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err(format!("it must be a whole number from 1 to {}", u32::MAX)),
+    }
+}
+
+pub(super) fn frames(text: &str) -> Result<u32, String> {
+    positive_u32(text)
+}
+
+pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X']).map(|(width, height)| (positive_u32(width), positive_u32(height)));
+    match sides {
+        Some((Ok(width), Ok(height))) => Ok([width, height]),
+        _ => Err("it must be a width and a height of at least 1, like 640x480".to_owned()),
+    }
+}
+
+pub(super) fn field(text: &str) -> Result<FieldSize, String> {
+    if let Ok(width) = positive_u32(text) {
+        return Ok(FieldSize::Width(width));
+    }
+    size(text)
+        .map(FieldSize::Exactly)
+        .map_err(|_| "it must be a width like 512, or a size like 1024x512, of at least 1".to_owned())
+}
+
+/// Finite numbers between commas, exactly `N` of them.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|part| part.trim().parse().ok().filter(|number: &f64| number.is_finite())).collect();
+    numbers?.try_into().ok()
+}
+
+/// One finite number within a range that excludes its lower end where that is 0.
+fn number_within(text: &str, range: scene::Range) -> Result<f64, String> {
+    match numbers::<1>(text) {
+        Some([number]) if range.contains(number) => Ok(number),
+        _ => Err(format!("it must be {range}")),
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "metres and texels are f32 throughout")]
+pub(super) fn depth(text: &str) -> Result<f32, String> {
+    number_within(text, scene::DEPTH_METRES).map(|number| number as f32)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "metres and texels are f32 throughout")]
+pub(super) fn stamp_radius(text: &str) -> Result<f32, String> {
+    number_within(text, scene::Range::above(0.0, 65536.0, "texels")).map(|number| number as f32)
+}
+
+pub(super) fn fov(text: &str) -> Result<f64, String> {
+    number_within(text, scene::VERTICAL_FOV_DEGREES)
+}
+
+pub(super) fn dt(text: &str) -> Result<f64, String> {
+    // An hour a frame: beyond it a simulation that keeps its own step would seem to hang.
+    number_within(text, scene::Range::above(0.0, 3600.0, "seconds"))
+}
+
+pub(super) fn height_range(text: &str) -> Result<[f32; 2], String> {
+    #[expect(clippy::cast_possible_truncation, reason = "images are read as f32")]
+    let range = numbers::<2>(text).map(|range| range.map(|bound| bound as f32));
+    match range {
+        Some([low, high]) if low < high && (high - low).is_finite() => Ok([low, high]),
+        Some(_) => Err("the first number must be less than the second".to_owned()),
+        None => Err("it must be two numbers, like 0,1000".to_owned()),
+    }
+}
+
+/// The words of a sign. A shell's quotes keep `\n` as two characters: here it ends a line, as in a scene.
+pub(super) fn sign(text: &str) -> Result<String, String> {
+    let text = text.replace("\\n", "\n");
+    scene::check_text(&text).map(|()| text)
+}
+
+pub(super) fn camera(text: &str) -> Result<CameraPlacement, String> {
+    let Some([ex, ey, ez, tx, ty, tz]) = numbers::<6>(text) else {
+        return Err("it must be six numbers, eye and target in metres, like 0,1,1,0,0,0".to_owned());
+    };
+    let camera = CameraPlacement { eye: [ex, ey, ez], target: [tx, ty, tz] };
+    scene::check_camera(camera.eye, camera.target).map(|()| camera)
+}
