@@ -111,6 +111,14 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Mountains with gullies over a valley: a landscape to look at, the same that the `terrain` albedo colours.
+    Landscape {},
+    /// Plains, highlands and craters by longitude and latitude, for a sphere; the same that the `planet` albedo colours.
+    Planet {},
+    /// A carved panel that continues itself.
+    Ornament {},
+    /// What a depth camera sees of a table with a vase, fruit and books: heights, and colours for albedo `image`.
+    StillLife {},
     /// A sign: text in relief.
     Text(Text),
     /// An image's heights.

@@ -35,6 +35,8 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_cobble"
     "surface/albedo_image"
     "surface/albedo_plain"
+    "surface/albedo_planet"
+    "surface/albedo_terrain"
     "surface/albedo_water"
     "surface/channels"
     "surface/frame"

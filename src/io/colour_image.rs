@@ -30,22 +30,27 @@ fn read_png(file: BufReader<File>) -> Result<ColourImage, String> {
         other => damaged("PNG", &other.to_string()),
     };
     let mut decoder = png::Decoder::new(file);
-    decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
+    decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let info = decoder.read_header_info().map_err(damaged)?;
     let size = check_size(info.width.into(), info.height.into())?;
     let interlaced = info.interlaced;
     let mut reader = decoder.read_info().map_err(damaged)?;
-    let samples = reader.output_color_type().0.samples();
+    let (colour, depth) = reader.output_color_type();
+    let (samples, wide) = (colour.samples(), depth == png::BitDepth::Sixteen);
 
     // Grows with what the file really holds, not with what its header promises. Interlaced rows come in no such order.
     let bytes = size[0] as usize * size[1] as usize * 4;
     let mut rgba = if interlaced { vec![0_u8; bytes] } else { Vec::new() };
-    let mut row_rgba: Vec<u8> = Vec::new();
+    let (mut row_rgba, mut narrowed): (Vec<u8>, Vec<u8>) = (Vec::new(), Vec::new());
     while let Some(row) = reader.next_interlaced_row().map_err(damaged)? {
+        // Sixteen bits become the nearest eight.
+        let near = |pair: &[u8]| ((u32::from(u16::from_be_bytes([pair[0], pair[1]])) + 128) / 257) as u8;
+        narrowed.clear();
+        narrowed.extend(row.data().chunks_exact(2).filter(|_| wide).map(near));
         row_rgba.clear();
-        row_rgba.extend(row.data().chunks_exact(samples).flat_map(|pixel| match *pixel {
+        row_rgba.extend(if wide { &narrowed } else { row.data() }.chunks_exact(samples).flat_map(|pixel| match *pixel {
             [grey] | [grey, _] => [grey, grey, grey, 255],
             [red, green, blue] | [red, green, blue, _] => [red, green, blue, 255],
             _ => unreachable!("a PNG's pixel has one to four samples"),

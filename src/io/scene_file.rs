@@ -13,11 +13,13 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 4] = [
+pub const EMBEDDED: [(&str, &str); 6] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
     ("text", include_str!("../../scenes/text.toml")),
+    ("terrain", include_str!("../../scenes/terrain.toml")),
+    ("depth-image", include_str!("../../scenes/depth-image.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.
@@ -94,9 +96,9 @@ impl LoadedScene {
         }
     }
 
-    /// The colours that lie over the field, if there are any.
+    /// The colours that lie over the field, if there are any: an image's, or what the base brings.
     pub fn colours(&self) -> Option<ColourImage> {
-        self.colours.clone()
+        self.colours.clone().or_else(|| base::colours(&self.scene))
     }
 
     /// The image's heights at the field's size, if the scene starts from an image.

@@ -96,7 +96,7 @@ impl Scene {
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
         validate_light(&self.light)?;
-        validate_material(&self.material)?;
+        validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
         validate_camera(&self.camera)
     }
 }
@@ -131,6 +131,7 @@ fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
         Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} => Ok(()),
+        Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
         Base::Image { range: Some([low, high]), .. } if !(low < high && (high - low).is_finite()) => {
@@ -222,12 +223,12 @@ fn validate_light(light: &Light) -> Result<(), SceneError> {
     number("light.turn_degrees_per_second", light.turn_degrees_per_second, Range::from_to(-3600.0, 3600.0, "degrees per second"))
 }
 
-fn validate_material(material: &Material) -> Result<(), SceneError> {
+fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), SceneError> {
     match &material.image {
         Some(path) if path.as_os_str().is_empty() => {
             return refuse("material.image", "empty", "the path of a PNG file, or left out");
         }
-        None if material.albedo == Albedo::Image => {
+        None if material.albedo == Albedo::Image && !base_has_colours => {
             return refuse(
                 "material.albedo",
                 "image",

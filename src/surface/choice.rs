@@ -77,6 +77,10 @@ choices! {
         Cobble = "cobble", "albedo_cobble", "Cobble";
         /// A picture.
         Image = "image", "albedo_image", "Image";
+        /// Rock, dust and ice of a planet without air.
+        Planet = "planet", "albedo_planet", "Planet";
+        /// Grass, forest, rock and snow, by height and slope.
+        Terrain = "terrain", "albedo_terrain", "Terrain";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
     }

@@ -48,7 +48,7 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Bronze | Albedo::Image | Albedo::Water => Vec::new(),
+        Albedo::Plain | Albedo::Bronze | Albedo::Image | Albedo::Planet | Albedo::Terrain | Albedo::Water => Vec::new(),
     }
 }
 

@@ -12,7 +12,7 @@ const GOLDENS: [(&str, &[&str]); 6] = [
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("relief", &["--scene", "relief"]),
     ("text", &["--scene", "text"]),
-    ("text-engraved", &["--scene", "relief", "--text", "cut\\nin"]),
+    ("text-relief", &["--scene", "relief", "--text", "cut\\nin"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
 ];
 

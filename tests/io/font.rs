@@ -24,7 +24,7 @@ fn what_is_unfit_is_refused_in_one_sentence() {
     let directory = tempfile::tempdir().expect("there is a temporary directory");
     let path = directory.path().join("font.ttf");
     let refusal = |path: &Path, text: &str| {
-        let sentence = lettering(text, Some(path)).expect_err("it is unfit").to_string();
+        let sentence = lettering(text, Some(path)).map(|_| ()).expect_err("it is unfit").to_string();
         assert!(!sentence.contains('\n'), "{sentence}");
         sentence
     };
@@ -40,7 +40,7 @@ fn what_is_unfit_is_refused_in_one_sentence() {
     }
     fs::write(&path, EMBEDDED_FONT).expect("the directory can be written");
     assert!(refusal(&path, "1 漢").contains("font.ttf has no glyph for `漢` (U+6F22)"));
-    let own = lettering("漢", None).expect_err("it lacks it").to_string();
+    let own = lettering("漢", None).map(|_| ()).expect_err("it lacks it").to_string();
     assert!(own.starts_with("the program's own font has no glyph for `漢`"), "{own}");
 }
 

@@ -3,10 +3,14 @@
 //! Procedural bases are functions of the position in metres and of the seed, so that another field size is a finer look at the
 //! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl` and `…_cobble.wgsl`).
 
+mod landscape;
 pub mod lettering;
 mod masonry;
 mod noise;
+mod ornament;
 mod outline;
+mod planet;
+mod still_life;
 mod terrain;
 pub mod text;
 
@@ -16,7 +20,10 @@ pub(crate) use noise::hash_cell;
 
 use super::wave;
 use crate::scene::{Base, Boundary, Scene};
+use crate::surface::albedo_image::{ColourImage, encode};
+use landscape::Landscape;
 use masonry::{bricks_depth_metres, cobbles_depth_metres};
+use planet::Planet;
 use terrain::Terrain;
 
 /// The heights of a procedural base, row by row; `None` for an image and for text, whose files the caller loads.
@@ -43,7 +50,33 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
         }
+        Base::Landscape {} => {
+            let landscape = Landscape::new(scene.seed);
+            Some(fill(&|x, y| landscape.height(x / plane_metres, y / plane_metres)))
+        }
+        Base::Planet {} => {
+            let planet = Planet::new(scene.seed);
+            let down_metres = scene.plane_size_metres()[1];
+            Some(fill(&|x, y| planet.height(x / plane_metres, y / down_metres)))
+        }
+        Base::Ornament {} => {
+            let down_metres = scene.plane_size_metres()[1];
+            Some(fill(&|x, y| ornament::height(x / plane_metres, y / down_metres)))
+        }
+        Base::StillLife {} => Some(still_life::photograph(scene.field.size).heights),
         Base::Text(_) | Base::Image { .. } => None,
+    }
+}
+
+/// The colours that a base brings with its heights, for albedo `image`; most bring none.
+pub fn colours(scene: &Scene) -> Option<ColourImage> {
+    match &scene.base {
+        Base::StillLife {} => {
+            let linear = still_life::photograph(scene.field.size).colours;
+            let rgba = linear.iter().flat_map(|[red, green, blue]| [encode(*red), encode(*green), encode(*blue), 255]).collect();
+            Some(ColourImage { size: scene.field.size, rgba })
+        }
+        _ => None,
     }
 }
 
@@ -51,7 +84,7 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
 pub fn rest_height(base: &Base) -> f32 {
     match base {
         Base::Flat { height } => *height,
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Text(_) | Base::Image { .. } => 1.0,
+        _ => 1.0,
     }
 }
 

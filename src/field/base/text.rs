@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn it_is_in_the_middle_and_as_large_as_fits() {
         for (words, size) in [("Rilievo", [400, 300]), ("Rilievo", [300, 40]), ("O", [200, 333]), ("a\nb\nc\nd", [256, 256])] {
-            let text = Text { text: words.to_owned(), ..Text::default() };
+            let text = Text { text: words.to_owned(), bevel: 0.0, ..Text::default() };
             let [x, y] = extent(&sign(&text, size), size);
             let shares = [(x, size[0]), (y, size[1])].map(|([low, high], size)| {
                 assert!((low as f64 + high as f64 + 1.0 - f64::from(size)).abs() <= 2.0, "{words} {size}: from {low} to {high}");
