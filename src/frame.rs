@@ -12,12 +12,13 @@ use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
 use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
+use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Albedo, Shadow, Shows, Surface, Technique, View, ViewSet, view};
+use crate::surface::{Choice, Seen, Shows, Stage, Surface, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,14 +29,16 @@ pub struct Start {
     pub heights: Vec<f32>,
     /// As many texels of [`crate::field::Material`].
     pub material: Vec<u32>,
+    /// The mesh that carries the relief; none: the plane.
+    pub mesh: Option<Mesh>,
     /// The picture over it, if any.
     pub colours: Option<ColourImage>,
 }
 
 impl Start {
-    /// The start of a scene whose base has these heights.
-    pub fn new(scene: &Scene, heights: Vec<f32>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, colours: None };
+    /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
+    pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = base::POST_MATERIAL;
@@ -60,6 +63,13 @@ pub struct FrameInput<'a> {
     pub camera: &'a Camera,
     /// What the picture shows.
     pub shows: Shows,
+}
+
+impl<'a> FrameInput<'a> {
+    /// What is seen of a scene.
+    pub fn seen(&self, scene: &'a Scene) -> Seen<'a> {
+        Seen { scene, camera: self.camera, time_seconds: self.tick.time_seconds, shows: self.shows }
+    }
 }
 
 /// Why there is no frame.
@@ -108,7 +118,10 @@ pub struct Frame {
     pyramid: Pyramid,
     pyramid_set: PyramidSet,
     /// One for each choice that was ever shown: switching back costs nothing.
-    surfaces: HashMap<(Technique, Shadow, Albedo), (Surface, SurfaceSet)>,
+    surfaces: HashMap<Choice, (Surface, SurfaceSet)>,
+    /// What is seen beside and instead of the bare plane; none where the plane is all.
+    stage: Option<Stage>,
+    mesh: Option<Mesh>,
     present: Present,
     radiance: Texture<Radiance>,
     present_set: PresentSet,
@@ -172,6 +185,8 @@ impl Frame {
             pyramid,
             pyramid_set,
             surfaces: HashMap::new(),
+            stage: None,
+            mesh: start.mesh.clone(),
             present,
             radiance,
             present_set,
@@ -202,13 +217,17 @@ impl Frame {
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
         let choice = self.choice();
         let _ = gpu.take_error();
-        let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
+        let surface = Surface::new(gpu, &self.view_layout, choice)?;
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
         if let Some(message) = gpu.take_error() {
             return Err(ShaderError::Unfit(message));
+        }
+        if let Some(stage) = &mut self.stage {
+            stage.forget_pipelines();
+            stage.prepare(gpu, &self.field, &self.scene)?;
         }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         let set = surface.bind(gpu, &self.field);
@@ -265,20 +284,48 @@ impl Frame {
     fn retarget(&mut self, gpu: &Gpu) {
         self.radiance = Texture::new(gpu, traced_size(&self.scene, self.image_size));
         self.present_set = self.present.bind(gpu, &self.radiance.view);
+        if let Some(stage) = &mut self.stage {
+            stage.resize(gpu, traced_size(&self.scene, self.image_size));
+        }
     }
 
-    fn choice(&self) -> (Technique, Shadow, Albedo) {
-        (self.scene.trace.technique, self.scene.trace.shadow, self.scene.material.albedo)
+    fn choice(&self) -> Choice {
+        Choice::of(&self.scene)
     }
 
     fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+        if Stage::is_needed(&self.scene) {
+            return self.build_stage(gpu);
+        }
+        self.stage = None;
         let choice = self.choice();
         if !self.surfaces.contains_key(&choice) {
-            let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
+            let surface = Surface::new(gpu, &self.view_layout, choice)?;
             let set = surface.bind(gpu, &self.field);
             self.surfaces.insert(choice, (surface, set));
         }
         Ok(())
+    }
+
+    fn build_stage(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+        let size = traced_size(&self.scene, self.image_size);
+        let mesh = self.mesh.clone().or_else(|| {
+            let plane = || Shape::Plane.mesh(self.scene.plane_size_metres().map(|metres| metres as f32));
+            self.scene.trace.shell.then(plane)
+        });
+        match &mut self.stage {
+            Some(stage) => stage.set_mesh(gpu, mesh),
+            None => self.stage = Some(Stage::new(gpu, &self.field, mesh, size)),
+        }
+        if let Some(stage) = &mut self.stage {
+            stage.prepare(gpu, &self.field, &self.scene)?;
+        }
+        Ok(())
+    }
+
+    /// The stage on which the scene is seen, where it needs one.
+    pub fn stage(&self) -> Option<&Stage> {
+        self.stage.as_ref()
     }
 
     /// The scene that it shows.
@@ -382,13 +429,16 @@ impl Frame {
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
     ) {
-        let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) else {
-            unreachable!("every change of the choice builds its surface first")
-        };
         let traced = traced_size(&self.scene, self.image_size);
-        let view = View::new(&self.scene, input.camera, input.tick.time_seconds, traced, input.shows);
-        self.view_set.uniform.write(recorder.gpu, &view);
-        surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
+        if let Some(stage) = &self.stage {
+            stage.record(recorder, &input.seen(&self.scene), &self.radiance.view);
+        } else if let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) {
+            let view = View::new(&self.scene, input.camera, input.tick.time_seconds, traced, input.shows);
+            self.view_set.uniform.write(recorder.gpu, &view);
+            surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
+        } else {
+            unreachable!("every change of the choice builds its surface or its stage first")
+        }
         let tone_map = input.shows == Shows::Picture;
         present.record(recorder, present_set, self.scene.trace.supersampling, tone_map, target);
     }
@@ -397,7 +447,8 @@ impl Frame {
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
-        self.field.memory_bytes() + self.radiance.memory_bytes() + 4 * width * height
+        let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
+        self.field.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the

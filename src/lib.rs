@@ -54,6 +54,7 @@ pub mod field;
 pub mod frame;
 pub mod gpu;
 pub mod io;
+pub mod mesh;
 pub mod modes;
 pub mod present;
 pub mod reference;

@@ -3,6 +3,7 @@
 //! The same value serves panel, command line, files and tests. Files are TOML; a field that is absent has its default, a field
 //! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
 
+mod bodies;
 mod framing;
 mod text;
 mod validate;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
 
+pub use bodies::{Ball, Mesh};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
@@ -59,6 +61,12 @@ pub struct Scene {
     /// What the surface is made of.
     #[serde(default)]
     pub material: Material,
+    /// The mesh that carries the relief; absent: the plane.
+    #[serde(default)]
+    pub mesh: Option<Mesh>,
+    /// Balls beside the relief, which cast shadows upon it and are mirrored in it.
+    #[serde(default)]
+    pub balls: Vec<Ball>,
     /// Where it is seen from.
     #[serde(default)]
     pub camera: Camera,
@@ -232,6 +240,10 @@ pub struct Trace {
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
+    /// Whether the depth of a pixel is that of the relief, so that surfaces intersect as they should; else it is the polygon's.
+    pub displaced_depth: bool,
+    /// Whether the relief is a solid with a silhouette of its own, which ends at the borders of its mesh.
+    pub shell: bool,
 }
 
 /// A directional light and its surroundings.
@@ -324,6 +336,8 @@ impl Default for Scene {
             trace: Trace::default(),
             light: Light::default(),
             material: Material::default(),
+            mesh: None,
+            balls: Vec::new(),
             camera: Camera::default(),
         }
     }
@@ -385,6 +399,8 @@ impl Default for Trace {
             shadow_strength: 4.0,
             step_cap: 4096,
             supersampling: 1,
+            displaced_depth: false,
+            shell: false,
         }
     }
 }

@@ -13,8 +13,11 @@ use rilievo::gpu::Library;
 use rilievo::present::PresentParams;
 use rilievo::surface::channels::Channel;
 use rilievo::surface::probe::{Hit, Ray};
+use rilievo::surface::raster::{Geometry, RasterVertex};
 use rilievo::surface::ray_map::LinearForm;
-use rilievo::surface::{self, Albedo, Shadow, Shows, Technique, View};
+use rilievo::surface::shell::ShellTriangle;
+use rilievo::surface::view::Ball;
+use rilievo::surface::{self, Albedo, Choice, Shadow, Shows, Technique, View};
 use wgpu::naga;
 
 /// Every composition that the program can ask for.
@@ -32,8 +35,12 @@ fn compositions() -> Vec<Vec<String>> {
         for &technique in Technique::ALL {
             for &shadow in Shadow::ALL {
                 for &albedo in Albedo::ALL {
+                    let choice = Choice { technique, shadow, albedo };
                     for entry in ["surface", "channels", "probe"] {
-                        all.push(surface::parts(filters, technique, shadow, albedo, entry));
+                        all.push(surface::parts(filters, choice, &[entry]));
+                    }
+                    for geometry in Geometry::ALL {
+                        all.push(surface::parts(filters, choice, geometry.stems()));
                     }
                 }
             }
@@ -137,8 +144,21 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 shows,
                 tint,
                 image_size,
+                planar,
+                ball_count,
+                direction_x,
+                direction_y,
+                direction_z,
+                clip_from_eye,
+                eye_rest,
+                near_metres,
+                forward_world,
+                balls,
             }),
         ),
+        ("Ball", layout!(Ball { centre, radius, colour })),
+        ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
+        ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
@@ -217,7 +237,7 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
 
 #[test]
 fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() {
-    let module = module(&surface::parts(true, Technique::Exact, Shadow::Hard, Albedo::Plain, "surface"));
+    let module = module(&surface::parts(true, Choice::PLAIN, &["surface"]));
     let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));

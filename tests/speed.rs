@@ -37,7 +37,7 @@ impl Relief {
         scene.field.size = [size, size];
         let image_size = [640, 480];
         let mut frame =
-            Frame::new(gpu, &Start::new(&scene, image.heights), image_size, PICTURE_FORMAT).expect("its shaders compile");
+            Frame::new(gpu, &Start::new(&scene, image.heights, None), image_size, PICTURE_FORMAT).expect("its shaders compile");
         frame.timer = Timer::alone(gpu, milliseconds_when_idle);
         Self { frame, picture: Picture::new(gpu, image_size), camera: Camera::at(&scene.camera, 0.0) }
     }

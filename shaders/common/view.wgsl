@@ -7,6 +7,13 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// A ball beside the relief.
+struct Ball {
+    centre: vec3f,  // world, metres
+    radius: f32,
+    colour: vec3f,  // albedo, linear
+}
+
 struct View {
     // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
     // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
@@ -49,6 +56,18 @@ struct View {
     tint: vec3f,
 
     image_size: vec2u,           // of the traced picture, pixels
+    planar: u32,                 // 1 where a mesh's facets take their rays from the forms above
+    ball_count: u32,
+
+    // The pixel's direction in the world, with unit length along the view axis.
+    direction_x: LinearForm,
+    direction_y: LinearForm,
+    direction_z: LinearForm,
+    clip_from_eye: mat4x4f,      // from what is counted from the eye, in the world's axes; depth is near over distance
+    eye_rest: vec3f,             // what eye_world lacks
+    near_metres: f32,
+    forward_world: vec3f,        // unit, along the view axis
+    balls: array<Ball, 4>,
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -2,7 +2,8 @@
 //
 //   radiance  rgba16float  write  linear, unbounded
 //
-// One triangle covers the picture: the plane's border is computed, which antialiases it for nothing.
+// One triangle covers the picture: the plane's border is computed, which antialiases it for nothing. Among other things, with a depth
+// buffer, the background is drawn first and the plane blends into it at its border.
 
 @vertex
 fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -29,4 +30,10 @@ fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     frame = plane_frame();
     return vec4f(mix(behind, shown(shade(pixel.ray)), coverage), 1.0);
+}
+
+@fragment
+fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    view = view_buffer;
+    return vec4f(background(position.xy), 1.0);
 }

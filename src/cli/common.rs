@@ -6,11 +6,12 @@ use clap::Args;
 
 use super::Verbosity;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, non_empty, shadow, shadow_help, sign, size, technique, technique_help,
-    whole_u64,
+    backend, camera, depth, field, fov, height_range, mesh, non_empty, shadow, shadow_help, sign, size, technique,
+    technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
+use crate::mesh::MeshSource;
 use crate::surface::{Shadow, Technique};
 
 /// What every mode that shows a scene takes.
@@ -63,6 +64,18 @@ pub struct CommonOptions {
     #[arg(long, value_name = "METRES", value_parser = depth, allow_negative_numbers = true, help_heading = "Scene")]
     depth: Option<f32>,
 
+    /// What carries the relief: plane, box, cylinder, sphere, torus, or an OBJ, glTF or GLB file [default: the scene's]
+    #[arg(long, value_name = "NAME|FILE", value_parser = mesh, help_heading = "Scene")]
+    mesh: Option<MeshSource>,
+
+    /// Draw the relief as a solid with a silhouette of its own, which ends at its mesh's borders [default: the scene's]
+    #[arg(long, help_heading = "Scene")]
+    shell: bool,
+
+    /// Write the relief's depth instead of the polygon's, so that surfaces intersect as they should [default: the scene's]
+    #[arg(long, help_heading = "Scene")]
+    displaced_depth: bool,
+
     /// Eye and target, metres; replaces every camera motion [default: the scene's, which shows the whole plane]
     #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ", value_parser = camera, allow_hyphen_values = true, help_heading = "Scene")]
     camera: Option<CameraPlacement>,
@@ -87,6 +100,9 @@ impl CommonOptions {
             albedo: self.albedo.clone(),
             field: self.field,
             depth_metres: self.depth,
+            mesh: self.mesh.clone(),
+            shell: self.shell,
+            displaced_depth: self.displaced_depth,
             technique: self.technique,
             shadow: self.shadow,
             seed: self.seed,

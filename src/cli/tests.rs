@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
+use crate::mesh::{MeshSource, Shape};
 use crate::surface::{Shadow, Technique};
 
 fn parse(line: &str) -> Result<Command, Refusal> {
@@ -47,6 +48,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --albedo c.png --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
+         --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
     assert_eq!(options.common.scene, "a.toml");
@@ -68,6 +70,9 @@ fn values_arrive() {
             seed: Some(u64::MAX),
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
+            mesh: Some(MeshSource::Shape(Shape::Torus)),
+            shell: true,
+            displaced_depth: true,
         }
     );
     let overrides = capture("--text Two\\nlines --font f.ttf").common.overrides();

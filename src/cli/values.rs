@@ -2,6 +2,7 @@
 
 use super::Channel;
 use crate::io::scene_file::{CameraPlacement, FieldSize};
+use crate::mesh::MeshSource;
 use crate::scene;
 use crate::suggest;
 use crate::surface::{Shadow, Technique};
@@ -24,6 +25,10 @@ pub(super) fn technique(text: &str) -> Result<Technique, String> {
 pub(super) fn shadow(text: &str) -> Result<Shadow, String> {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
     Shadow::from_name(text).ok_or_else(|| suggest::unknown("shadow", text, &names))
+}
+
+pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
+    text.parse()
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {

@@ -42,6 +42,27 @@ impl Recorder<'_> {
 
     /// Runs `record` in a render pass of this name, which overwrites the whole target.
     pub fn render(&mut self, name: &str, target: &wgpu::TextureView, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+        self.render_to(name, target, None, record);
+    }
+
+    /// The same with a depth buffer, which begins at 0: infinitely far.
+    pub fn render_with_depth(
+        &mut self,
+        name: &str,
+        target: &wgpu::TextureView,
+        depth: &wgpu::TextureView,
+        record: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
+        self.render_to(name, target, Some(depth), record);
+    }
+
+    fn render_to(
+        &mut self,
+        name: &str,
+        target: &wgpu::TextureView,
+        depth: Option<&wgpu::TextureView>,
+        record: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
         self.pass(name, |encoder, query| {
             record(&mut encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(name),
@@ -51,6 +72,7 @@ impl Recorder<'_> {
                     resolve_target: None,
                     ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
                 })],
+                depth_stencil_attachment: depth.map(depth_attachment),
                 timestamp_writes: query.render_pass_timestamp_writes(),
                 ..Default::default()
             }));
@@ -73,6 +95,15 @@ impl Recorder<'_> {
         let recorded = std::mem::replace(self.encoder, self.gpu.encoder("alone"));
         self.gpu.queue.submit([recorded.finish()]);
         time(self.gpu)
+    }
+}
+
+/// A depth buffer that begins at 0, infinitely far, and is not kept.
+pub fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+        stencil_ops: None,
     }
 }
 

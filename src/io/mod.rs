@@ -1,4 +1,4 @@
-//! Files: images of heights and colours, fonts and scenes in; pictures, channels and the manifest out.
+//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out.
 
 pub mod atomic;
 pub mod colour_image;
@@ -6,6 +6,7 @@ pub mod exr_file;
 pub mod font;
 pub mod height_image;
 pub mod manifest;
+pub mod mesh_file;
 pub mod output_dir;
 pub mod png_file;
 mod resample;

@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use super::colour_image;
 use super::font::{self, FontError};
 use super::height_image::{self, HeightImage, ImageError};
+use super::mesh_file::{self, MeshError};
 use crate::field::base::{self, Lettering};
-use crate::scene::{Base, Camera, Scene, SceneError, Text, VERSION};
+use crate::mesh::{Mesh, MeshSource};
+use crate::scene::{self, Base, Camera, Scene, SceneError, Text, VERSION};
 use crate::suggest;
 use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shadow, Technique};
@@ -60,6 +62,12 @@ pub struct SceneOverrides {
     pub field: Option<FieldSize>,
     /// Depth of h = 0, metres.
     pub depth_metres: Option<f32>,
+    /// The mesh that carries the relief.
+    pub mesh: Option<MeshSource>,
+    /// Draw its shell.
+    pub shell: bool,
+    /// Write the relief's depth.
+    pub displaced_depth: bool,
     /// How the surface is traced.
     pub technique: Option<Technique>,
     /// The shadow upon it.
@@ -77,28 +85,30 @@ pub struct SceneOverrides {
 pub struct LoadedScene {
     /// The scene, with the field's size as it will be.
     pub scene: Scene,
+    /// The mesh that carries the relief; none: the plane.
+    pub mesh: Option<Mesh>,
     image: Option<HeightImage>,
     lettering: Option<Lettering>,
     colours: Option<ColourImage>,
 }
 
 impl LoadedScene {
-    /// The heights that the field starts from. Makes as many as the field has texels: check its size against the adapter's limits
-    /// first.
-    pub fn heights(&self) -> Vec<f32> {
-        match (&self.scene.base, &self.lettering, self.image_heights()) {
-            (_, _, Some(image)) => image.heights,
+    /// The heights that the field starts from, and the colours that lie over it, if there are any: an image's, or what the base
+    /// brings. Makes as many heights as the field has texels: check its size against the adapter's limits first.
+    pub fn layers(&self) -> (Vec<f32>, Option<ColourImage>) {
+        let (heights, colours) = match (&self.scene.base, &self.lettering, self.image_heights()) {
+            (_, _, Some(image)) => (image.heights, None),
             (Base::Text(text), Some(lettering), _) => {
-                base::text::heights(text, lettering, self.scene.field.size, self.scene.texel_metres())
+                (base::text::heights(text, lettering, self.scene.field.size, self.scene.texel_metres()), None)
+            }
+            (Base::StillLife {}, ..) => {
+                let (heights, colours) = base::still_life::photograph(self.scene.field.size);
+                (heights, Some(colours))
             }
             // Only an image and a text have no heights of their own.
-            _ => base::heights(&self.scene).unwrap_or_default(),
-        }
-    }
-
-    /// The colours that lie over the field, if there are any: an image's, or what the base brings.
-    pub fn colours(&self) -> Option<ColourImage> {
-        self.colours.clone().or_else(|| base::colours(&self.scene))
+            _ => (base::heights(&self.scene).unwrap_or_default(), None),
+        };
+        (heights, self.colours.clone().or(colours))
     }
 
     /// The image's heights at the field's size, if the scene starts from an image.
@@ -150,6 +160,9 @@ pub enum SceneFileError {
     /// There is no text that a font could set.
     #[error("--font sets a text, and this scene has none: write one with --text")]
     FontWithoutText,
+    /// Its mesh is unfit.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// There is nothing that a range could map.
     #[error("--height-range maps the values of an image, and this scene has none: name one with --height")]
     RangeWithoutImage,
@@ -203,7 +216,19 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
     if overrides.camera.is_none() && !given.camera {
         scene.camera = scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
     }
-    Ok(LoadedScene { scene, image, lettering, colours })
+    let mesh = match &scene.mesh {
+        Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
+        None => None,
+    };
+    Ok(LoadedScene { scene, mesh, image, lettering, colours })
+}
+
+fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
+    let mesh = mesh_file::load(&settings.source, tile_metres)?.tiled(settings.tiles);
+    Ok(match settings.radius_metres {
+        Some(radius) => mesh.fitted(radius),
+        None => mesh,
+    })
 }
 
 /// What a file says itself, where its absence means something else than a default value.
@@ -259,6 +284,9 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
         _ => {}
     }
     scene.material.image.iter_mut().for_each(beside_scene);
+    if let Some(mesh) = &mut scene.mesh {
+        mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
+    }
     let field_size = table.get("field").is_some_and(|field| field.get("size").is_some());
     Ok((scene, Given { field_size, camera: table.contains_key("camera") }))
 }
@@ -307,6 +335,11 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(depth) = overrides.depth_metres {
         scene.plane.depth_metres = depth;
     }
+    if let Some(source) = &overrides.mesh {
+        scene.mesh = Some(scene::Mesh { source: source.clone(), tiles: [1.0, 1.0], ..scene::Mesh::default() });
+    }
+    scene.trace.shell |= overrides.shell;
+    scene.trace.displaced_depth |= overrides.displaced_depth;
     if let Some(technique) = overrides.technique {
         scene.trace.technique = technique;
     }

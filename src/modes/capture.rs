@@ -14,7 +14,7 @@ use crate::io::{exr_file, png_file};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::channels::Channel as Numbers;
-use crate::surface::{Channels, Shows, View};
+use crate::surface::{Channels, Choice, Shows, View};
 
 /// The format of the picture that becomes a PNG.
 pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -165,7 +165,7 @@ impl ChannelFiles {
         let wanted: Vec<_> = wanted.iter().copied().filter(|channel| *channel != Channel::Color).collect();
         let pass = match wanted.is_empty() {
             true => None,
-            false => Some(Channels::new(gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?),
+            false => Some(Channels::new(gpu, Choice::of(scene))?),
         };
         Ok(Self { wanted, pass })
     }
@@ -205,6 +205,12 @@ fn write_files(
 /// The device was lost.
 pub fn read_channels(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<Vec<Numbers>, ModeError> {
     let [width, height] = frame.image_size();
+    if let Some(stage) = frame.stage() {
+        let parts = stage.request_channels(gpu, &frame.field, &input.seen(frame.scene()), [width, height])?;
+        let parts = parts.iter().map(|part| wait_for(gpu, part)).collect::<Result<Vec<_>, _>>()?;
+        let parts: Vec<Vec<[f32; 4]>> = parts.iter().map(|bytes| bytemuck::pod_collect_to_vec(bytes)).collect();
+        return Ok((0..parts[0].len()).map(|i| Numbers::from_parts([parts[0][i], parts[1][i], parts[2][i]])).collect());
+    }
     let view = View::new(frame.scene(), input.camera, input.tick.time_seconds, [width, height], input.shows);
     let rows = Channels::rows_per_band(gpu, width);
     let mut numbers = Vec::with_capacity(width as usize * height as usize);

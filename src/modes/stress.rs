@@ -18,7 +18,7 @@ use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
 use crate::surface::channels::Channel;
-use crate::surface::{Channels, Shows};
+use crate::surface::{Channels, Choice, Shows};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
 const WARMUP_FRAMES: u64 = 5;
@@ -106,7 +106,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         frame.timer = Timer::alone(&gpu, milliseconds_when_idle);
     }
     let picture = Picture::new(&gpu, options.common.image_size);
-    let pass = Channels::new(&gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?;
+    let pass = Channels::new(&gpu, Choice::of(scene))?;
 
     if let Some(path) = &options.json {
         atomic::check(path)?;

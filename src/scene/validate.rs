@@ -3,8 +3,9 @@
 use std::fmt;
 
 use crate::surface::Albedo;
+use crate::surface::view::BALLS_MAX;
 
-use super::{Base, Camera, Light, Material, Obstacle, Scene, Shots, Text, Trace, VERSION, Wave, check_text};
+use super::{Ball, Base, Camera, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace, VERSION, Wave, check_text};
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
 pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
@@ -12,6 +13,9 @@ pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
 pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low: false, with_high: false, unit: "degrees" };
 /// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
 pub const COURANT_SQUARED_MAX: f64 = 0.49;
+
+/// Samples of a search. More change no picture and stall a frame: 65,536 cross a field of 16,384 texels four times a texel.
+const SAMPLES: Range = Range::from_to(1.0, 65536.0, "samples");
 
 /// The numbers that a key may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +101,8 @@ impl Scene {
         validate_trace(&self.trace)?;
         validate_light(&self.light)?;
         validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
+        self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
+        validate_balls(&self.balls)?;
         validate_camera(&self.camera)
     }
 }
@@ -157,6 +163,38 @@ fn validate_text(text: &Text) -> Result<(), SceneError> {
     number("base.grain", text.grain, Range::from_to(0.0, 1.0, "of the depth"))
 }
 
+fn validate_mesh(mesh: &Mesh) -> Result<(), SceneError> {
+    if let Some(radius) = mesh.radius_metres {
+        number("mesh.radius_metres", radius, Range::above(0.0, 1e6, "metres"))?;
+    }
+    numbers("mesh.tiles", &mesh.tiles, Range::above(0.0, 1e4, "tiles"))?;
+    for (i, material) in mesh.materials.iter().enumerate() {
+        if let Some(depth) = material.depth_metres {
+            number(format!("mesh.materials[{i}].depth_metres"), depth, DEPTH_METRES)?;
+        }
+        if let Some([fewest, most]) = material.samples {
+            let key = format!("mesh.materials[{i}].samples");
+            numbers(&key, &[fewest, most], SAMPLES)?;
+            if fewest > most {
+                return refuse(key, format!("[{fewest}, {most}]"), "the fewest samples, then the most");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn validate_balls(balls: &[Ball]) -> Result<(), SceneError> {
+    if balls.len() > BALLS_MAX {
+        return refuse("balls", format!("a list of {}", balls.len()), format!("at most {BALLS_MAX} balls"));
+    }
+    for (i, ball) in balls.iter().enumerate() {
+        numbers(&format!("balls[{i}].centre"), &ball.centre, Range::from_to(-1e6, 1e6, "metres"))?;
+        number(format!("balls[{i}].radius_metres"), ball.radius_metres, Range::above(0.0, 1e6, "metres"))?;
+        numbers(&format!("balls[{i}].colour"), &ball.colour, Range::from_to(0.0, 1.0, ""))?;
+    }
+    Ok(())
+}
+
 fn validate_wave(wave: &Wave) -> Result<(), SceneError> {
     number("wave.speed_metres_per_second", wave.speed_metres_per_second, Range::above(0.0, 1e4, "metres per second"))?;
     let courant = f64::from(wave.courant);
@@ -198,15 +236,13 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 }
 
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
-    // Counts beyond these change no picture and stall a frame: 65,536 samples cross a field of 16,384 texels four times a texel.
-    let samples = Range::from_to(1.0, 65536.0, "samples");
-    number("trace.pom_samples_min", trace.pom_samples_min, samples)?;
-    number("trace.pom_samples_max", trace.pom_samples_max, samples)?;
+    number("trace.pom_samples_min", trace.pom_samples_min, SAMPLES)?;
+    number("trace.pom_samples_max", trace.pom_samples_max, SAMPLES)?;
     if trace.pom_samples_min > trace.pom_samples_max {
         let allowed = format!("at most `trace.pom_samples_max`, {}", trace.pom_samples_max);
         return refuse("trace.pom_samples_min", trace.pom_samples_min, allowed);
     }
-    number("trace.shadow_samples", trace.shadow_samples, samples)?;
+    number("trace.shadow_samples", trace.shadow_samples, SAMPLES)?;
     number("trace.shadow_strength", trace.shadow_strength, Range::from_to(0.0, 1000.0, ""))?;
     number("trace.step_cap", trace.step_cap, Range::from_to(1.0, 16_777_216.0, "steps"))?;
     number("trace.supersampling", trace.supersampling, Range::from_to(1.0, 8.0, "rays along a pixel's side"))

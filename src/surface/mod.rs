@@ -3,8 +3,12 @@
 pub mod albedo_image;
 pub mod channels;
 pub mod choice;
+pub mod facet;
 pub mod probe;
+pub mod raster;
 pub mod ray_map;
+pub mod shell;
+pub mod stage;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
 pub mod surface;
 pub mod view;
@@ -12,17 +16,41 @@ pub mod view;
 pub use channels::Channels;
 pub use choice::{Albedo, Shadow, Shows, Technique};
 pub use probe::Probe;
+pub use stage::{Seen, Stage};
 pub use surface::Surface;
 pub use view::{View, ViewSet};
 
 use crate::field;
 use crate::gpu::{Binding, BindingLayout, Gpu};
+use crate::scene::Scene;
 
-/// The WGSL parts of everything that traces, `entry` being the part with its entry points. `filters_r32float` says whether the
+/// What a picture is made with: the parts that are chosen, not computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Choice {
+    /// How the ray of a pixel finds the surface.
+    pub technique: Technique,
+    /// How much of the light a point sees.
+    pub shadow: Shadow,
+    /// The colour of the undisturbed surface.
+    pub albedo: Albedo,
+}
+
+impl Choice {
+    /// The cheapest, for what is no relief.
+    pub const PLAIN: Self = Self { technique: Technique::Normal, shadow: Shadow::None, albedo: Albedo::Plain };
+
+    /// A scene's.
+    pub fn of(scene: &Scene) -> Self {
+        Self { technique: scene.trace.technique, shadow: scene.trace.shadow, albedo: scene.material.albedo }
+    }
+}
+
+/// The WGSL parts of everything that traces, `entries` being those with its entry points, under `shaders/surface`. `filters_r32float` says whether the
 /// adapter does.
-pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albedo: Albedo, entry: &str) -> Vec<String> {
+pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
+    let Choice { technique, shadow, albedo } = choice;
+    let stems = [technique.stem(), shadow.stem(), "balls", "matter", albedo.stem(), "shade", "channel"];
     let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
@@ -35,7 +63,7 @@ pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albed
     ]
     .map(str::to_owned)
     .to_vec();
-    parts.extend(stems.map(|stem| format!("surface/{stem}")));
+    parts.extend(stems.iter().chain(entries).map(|stem| format!("surface/{stem}")));
     parts
 }
 
@@ -57,7 +85,7 @@ pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
         gpu,
         "field",
-        wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
         &[
             Binding::Float(gpu.filters_r32float()),
             Binding::Float(false),

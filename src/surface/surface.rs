@@ -1,6 +1,6 @@
 //! Surface: the plane with its relief, traced pixel by pixel into radiance. Shader: `shaders/surface/surface.wgsl`.
 
-use super::{Albedo, Shadow, Technique, ViewSet, bind_field, constants, field_layout, parts};
+use super::{Choice, ViewSet, bind_field, constants, field_layout, parts};
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Contract, Gpu, Recorder, Role, ShaderError};
 
@@ -38,15 +38,9 @@ impl Surface {
     /// # Errors
     ///
     /// The shader does not compile.
-    pub fn new(
-        gpu: &Gpu,
-        view: &BindingLayout,
-        technique: Technique,
-        shadow: Shadow,
-        albedo: Albedo,
-    ) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, view: &BindingLayout, choice: Choice) -> Result<Self, ShaderError> {
         let layout = field_layout(gpu);
-        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "surface");
+        let parts = parts(gpu.filters_r32float(), choice, &["surface"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let module = gpu.shaders.module(gpu, "surface", &parts)?;
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -54,7 +48,7 @@ impl Surface {
             bind_group_layouts: &[Some(&view.layout), Some(&layout.layout)],
             immediate_size: 0,
         });
-        let constants = constants(albedo);
+        let constants = constants(choice.albedo);
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("surface"),
             layout: Some(&pipeline_layout),

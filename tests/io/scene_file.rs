@@ -105,7 +105,7 @@ fn a_text_replaces_the_base_and_in_a_sign_only_its_words() {
     let loaded = load("relief", &overrides, PICTURE).expect("it is sound");
     let words = "Two\nlines".to_owned();
     assert_eq!(loaded.scene.base, Base::Text(Text { text: words.clone(), ..Text::default() }));
-    assert_eq!(loaded.heights().len(), 512 * 512);
+    assert_eq!(loaded.layers().0.len(), 512 * 512);
     let own = embedded("text").expect("it is listed");
     let Base::Text(own) = own.base else { panic!("the scene is a sign") };
     let loaded = load("text", &overrides, PICTURE).expect("it is sound");
@@ -129,11 +129,11 @@ fn colours_are_loaded_with_the_scene() {
     picture.save(directory.path().join("c.png")).expect("the directory can be written");
     let path = write(directory.path(), "scene.toml", "version = 1\n[material]\nalbedo = \"image\"\nimage = \"c.png\"\n");
     let loaded = load(&path, &SceneOverrides::default(), PICTURE).expect("it is sound");
-    assert_eq!(loaded.colours().expect("it has some").rgba, [1, 2, 3, 255].repeat(6));
+    assert_eq!(loaded.layers().1.expect("it has some").rgba, [1, 2, 3, 255].repeat(6));
     let overrides = SceneOverrides { albedo: Some(directory.path().join("c.png")), ..SceneOverrides::default() };
     let loaded = load("ripples", &overrides, PICTURE).expect("it is sound");
-    assert_eq!((loaded.scene.material.albedo, loaded.colours().map(|image| image.size)), (Albedo::Image, Some([3, 2])));
-    assert_eq!(load("ripples", &SceneOverrides::default(), PICTURE).expect("it is sound").colours(), None);
+    assert_eq!((loaded.scene.material.albedo, loaded.layers().1.map(|image| image.size)), (Albedo::Image, Some([3, 2])));
+    assert_eq!(load("ripples", &SceneOverrides::default(), PICTURE).expect("it is sound").layers().1, None);
 }
 
 #[test]

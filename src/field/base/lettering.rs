@@ -3,7 +3,7 @@
 //! harfrust shapes a line (kerning, ligatures, marks, scripts that run from the right), skrifa draws its glyphs. Lines stand below
 //! one another by the font's own line height, each centred by its ink.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec2;
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
@@ -55,6 +55,7 @@ impl Lettering {
         let shaper = ShaperData::new(&font);
         let shaper = shaper.shaper(&font).build();
         let mut glyphs = Glyphs { outlines: font.outline_glyphs(), drawn: HashMap::new() };
+        let charmap = font.charmap();
         let mut lacking = Vec::new();
         let mut segments: Vec<Cubic> = Vec::new();
         for (number, line) in text.lines().enumerate() {
@@ -64,15 +65,26 @@ impl Lettering {
             let shaped = shaper.shape(buffer, ShapeOptions::new());
             let mut pen = DVec2::ZERO;
             let mut of_line: Vec<Cubic> = Vec::new();
+            // Where each cluster of characters begins in the line; whether anything is drawn for it, and whether a glyph is missing.
+            let mut clusters: BTreeMap<usize, (bool, bool)> = BTreeMap::new();
             for (glyph, position) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
                 let outline = glyphs.outline(glyph.glyph_id)?;
-                let character = line[glyph.cluster as usize..].chars().next().unwrap_or(' ');
-                if (glyph.glyph_id == 0 || outline.is_empty()) && !is_blank(character) && !lacking.contains(&character) {
-                    lacking.push(character);
-                }
+                let cluster = clusters.entry(glyph.cluster as usize).or_insert((false, false));
+                *cluster = (cluster.0 || !outline.is_empty(), cluster.1 || glyph.glyph_id == 0);
                 let at = pen + DVec2::new(position.x_offset.into(), (-position.y_offset).into());
                 of_line.extend(outline.iter().map(|cubic| cubic.map(|point| (point + at) * per_em)));
                 pen += DVec2::new(position.x_advance.into(), (-position.y_advance).into());
+            }
+            let ends = clusters.keys().skip(1).copied().chain([line.len()]).collect::<Vec<_>>();
+            for ((start, (drawn, missing)), end) in clusters.into_iter().zip(ends) {
+                let seen = || line[start..end].chars().filter(|character| !is_blank(*character));
+                if missing || (!drawn && seen().next().is_some()) {
+                    let unmapped = seen().find(|character| charmap.map(*character).is_none());
+                    let named = unmapped.or_else(|| seen().next()).unwrap_or('\u{fffd}');
+                    if !lacking.contains(&named) {
+                        lacking.push(named);
+                    }
+                }
             }
             if let Some([low, high]) = bounds(&of_line) {
                 let shift = DVec2::new(-0.5 * (low.x + high.x), number as f64 * line_height);

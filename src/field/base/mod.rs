@@ -10,7 +10,7 @@ mod noise;
 mod ornament;
 mod outline;
 mod planet;
-mod still_life;
+pub mod still_life;
 mod terrain;
 pub mod text;
 
@@ -20,7 +20,6 @@ pub(crate) use noise::hash_cell;
 
 use super::wave;
 use crate::scene::{Base, Boundary, Scene};
-use crate::surface::albedo_image::{ColourImage, encode};
 use landscape::Landscape;
 use masonry::{bricks_depth_metres, cobbles_depth_metres};
 use planet::Planet;
@@ -63,20 +62,8 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
             let down_metres = scene.plane_size_metres()[1];
             Some(fill(&|x, y| ornament::height(x / plane_metres, y / down_metres)))
         }
-        Base::StillLife {} => Some(still_life::photograph(scene.field.size).heights),
+        Base::StillLife {} => Some(still_life::photograph(scene.field.size).0),
         Base::Text(_) | Base::Image { .. } => None,
-    }
-}
-
-/// The colours that a base brings with its heights, for albedo `image`; most bring none.
-pub fn colours(scene: &Scene) -> Option<ColourImage> {
-    match &scene.base {
-        Base::StillLife {} => {
-            let linear = still_life::photograph(scene.field.size).colours;
-            let rgba = linear.iter().flat_map(|[red, green, blue]| [encode(*red), encode(*green), encode(*blue), 255]).collect();
-            Some(ColourImage { size: scene.field.size, rgba })
-        }
-        _ => None,
     }
 }
 

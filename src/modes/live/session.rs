@@ -225,7 +225,7 @@ impl Session {
         self.apply_scene();
         // An image has no seed, nor has a text.
         if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights).with_colours(self.start.colours.take());
+            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone()).with_colours(self.start.colours.take());
         }
         self.restart();
         self.panel.say(format!("Seed {seed}"));

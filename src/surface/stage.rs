@@ -1,0 +1,314 @@
+//! Stage: what the camera sees beside and instead of the bare plane: a mesh that carries the relief, flat or as a shell, and balls, with
+//! a depth buffer.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
+use super::ray_map::Target;
+use super::{Choice, Shows, View, ViewSet, bind_field, facet, field_layout, view};
+use crate::camera::Camera;
+use crate::field::Field;
+use crate::gpu::{BindingLayout, Gpu, Readback, Recorder, ShaderError};
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+
+/// What is drawn, and with what.
+pub struct Stage {
+    view_layout: BindingLayout,
+    field_layout: BindingLayout,
+    mesh_layout: BindingLayout,
+    field_group: wgpu::BindGroup,
+    /// Built when they are first needed.
+    pipelines: RefCell<HashMap<(Choice, Geometry, Output), wgpu::RenderPipeline>>,
+    mesh: Option<Body>,
+    /// The bindings of an empty mesh, for what has none.
+    no_mesh: MeshBuffers,
+    /// One for each draw at most.
+    views: Vec<ViewSet>,
+    depth: wgpu::TextureView,
+    size: [u32; 2],
+}
+
+/// A mesh and its buffers.
+struct Body {
+    mesh: Mesh,
+    buffers: MeshBuffers,
+}
+
+/// One draw: what, which triangles, seen through which view.
+struct Draw {
+    geometry: Geometry,
+    choice: Choice,
+    triangles: Range<u32>,
+    view: View,
+}
+
+/// What is seen from where.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where it is seen from.
+    pub camera: &'a Camera,
+    /// The time that it shows, seconds.
+    pub time_seconds: f64,
+    /// What the picture shows.
+    pub shows: Shows,
+}
+
+impl Stage {
+    /// Whether a scene needs one: without, the plane alone is drawn, which antialiases its border.
+    pub fn is_needed(scene: &Scene) -> bool {
+        scene.mesh.is_some() || !scene.balls.is_empty() || scene.trace.shell || scene.trace.displaced_depth
+    }
+
+    /// Makes one for pictures of `size` traced pixels; `mesh` is the scene's, or the plane where its shell is drawn.
+    pub fn new(gpu: &Gpu, field: &Field, mesh: Option<Mesh>, size: [u32; 2]) -> Self {
+        let (view_layout, field_layout, mesh_layout) = (view::layout(gpu), field_layout(gpu), raster::mesh_layout(gpu));
+        let field_group = bind_field(gpu, &field_layout, field);
+        let no_mesh = MeshBuffers::new(gpu, &mesh_layout, &[], &[], false);
+        let mut stage = Self {
+            view_layout,
+            field_layout,
+            mesh_layout,
+            field_group,
+            pipelines: RefCell::default(),
+            mesh: None,
+            no_mesh,
+            views: Vec::new(),
+            depth: depth_buffer(gpu, size),
+            size,
+        };
+        stage.set_mesh(gpu, mesh);
+        stage
+    }
+
+    /// Puts another mesh on it.
+    pub fn set_mesh(&mut self, gpu: &Gpu, mesh: Option<Mesh>) {
+        self.mesh = mesh.map(|mesh| {
+            let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, true);
+            Body { mesh, buffers }
+        });
+    }
+
+    /// Takes another size, of traced pixels.
+    pub fn resize(&mut self, gpu: &Gpu, size: [u32; 2]) {
+        (self.depth, self.size) = (depth_buffer(gpu, size), size);
+    }
+
+    /// Forgets every pipeline: the device's shaders have changed.
+    pub fn forget_pipelines(&mut self) {
+        self.pipelines.get_mut().clear();
+    }
+
+    /// Builds what a scene's picture needs and is not there yet.
+    ///
+    /// # Errors
+    ///
+    /// A shader does not compile.
+    pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene) -> Result<(), ShaderError> {
+        // What is drawn does not depend on the camera.
+        let camera = &Camera::at(&scene.camera, 0.0);
+        let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, shows: Shows::Picture }, self.size);
+        for draw in &draws {
+            self.build(gpu, draw.choice, draw.geometry, Output::Radiance)?;
+        }
+        while self.views.len() < draws.len() {
+            self.views.push(ViewSet::new(gpu, &self.view_layout, field.addressing));
+        }
+        Ok(())
+    }
+
+    fn build(&self, gpu: &Gpu, choice: Choice, geometry: Geometry, output: Output) -> Result<(), ShaderError> {
+        let key = (choice, geometry, output);
+        if !self.pipelines.borrow().contains_key(&key) {
+            let groups = [&self.view_layout, &self.field_layout, &self.mesh_layout];
+            let pipeline = raster::pipeline(gpu, groups, choice, geometry, output)?;
+            self.pipelines.borrow_mut().insert(key, pipeline);
+        }
+        Ok(())
+    }
+
+    /// Everything that is drawn, from back to front where that matters.
+    fn draws(&self, seen: &Seen<'_>, image_size: [u32; 2]) -> Vec<Draw> {
+        let Seen { scene, camera, time_seconds, shows } = *seen;
+        let choice = Choice::of(scene);
+        let view = View::new(scene, camera, time_seconds, image_size, shows);
+        let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: Choice::PLAIN, triangles: 0..1, view }];
+        match &self.mesh {
+            None => draws.push(Draw { geometry: Geometry::Plane, choice, triangles: 0..1, view }),
+            Some(body) => {
+                let parts = body.mesh.parts.iter();
+                draws.extend(parts.flat_map(|part| {
+                    let settings = scene.mesh.as_ref().and_then(|mesh| mesh.materials.iter().find(|m| m.name == part.material));
+                    let mut view = view;
+                    if let Some(settings) = settings {
+                        view.depth_metres = settings.depth_metres.unwrap_or(view.depth_metres);
+                        if let Some([fewest, most]) = settings.samples {
+                            (view.pom_samples_min, view.pom_samples_max) = (fewest as f32, most as f32);
+                        }
+                    }
+                    mesh_draws(&body.mesh, part.triangles.clone(), view, seen, choice)
+                }));
+            }
+        }
+        if !scene.balls.is_empty() {
+            draws.push(Draw { geometry: Geometry::Balls, choice: Choice::PLAIN, triangles: 0..1, view });
+        }
+        draws
+    }
+
+    /// Records one render pass over the whole of `radiance`. The pipelines must have been prepared.
+    pub fn record(&self, recorder: &mut Recorder<'_>, seen: &Seen<'_>, radiance: &wgpu::TextureView) {
+        let draws = self.draws(seen, self.size);
+        for (draw, set) in draws.iter().zip(&self.views) {
+            set.uniform.write(recorder.gpu, &draw.view);
+        }
+        self.pose(recorder.gpu, seen.time_seconds);
+        recorder.render_with_depth("surface", radiance, &self.depth, |pass| {
+            self.draw(pass, &draws, &self.views, Output::Radiance);
+        });
+    }
+
+    /// Moves an animated mesh to where it is at a time.
+    fn pose(&self, gpu: &Gpu, time_seconds: f64) {
+        if let Some(Body { mesh, buffers }) = &self.mesh
+            && mesh.skin.is_some()
+        {
+            buffers.pose(gpu, &mesh.posed(time_seconds), &mesh.indices);
+        }
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draws: &[Draw], views: &[ViewSet], output: Output) {
+        let pipelines = self.pipelines.borrow();
+        for (draw, view) in draws.iter().zip(views) {
+            let Some(pipeline) = pipelines.get(&(draw.choice, draw.geometry, output)) else { continue };
+            let buffers = self.mesh.as_ref().map_or(&self.no_mesh, |body| &body.buffers);
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &view.group, &[]);
+            pass.set_bind_group(1, &self.field_group, &[]);
+            pass.set_bind_group(2, &buffers.group, &[]);
+            let Range { start, end } = draw.triangles;
+            match draw.geometry {
+                Geometry::Backdrop | Geometry::Plane | Geometry::Balls => pass.draw(0..3, 0..1),
+                Geometry::Facets(_) => {
+                    pass.set_index_buffer(buffers.indices(), wgpu::IndexFormat::Uint32);
+                    pass.draw_indexed(3 * start..3 * end, 0, 0..1);
+                }
+                // Three tetrahedra of four sides.
+                Geometry::Shell => pass.draw(36 * start..36 * end, 0..1),
+            }
+        }
+    }
+
+    /// Draws the channels at `size`, one ray a pixel, submits the work, and returns their parts on their way: four f32 a pixel each.
+    ///
+    /// # Errors
+    ///
+    /// A shader does not compile.
+    pub fn request_channels(
+        &self,
+        gpu: &Gpu,
+        field: &Field,
+        seen: &Seen<'_>,
+        size: [u32; 2],
+    ) -> Result<Vec<Readback>, ShaderError> {
+        let draws: Vec<_> = self.draws(seen, size).into_iter().filter(|draw| draw.geometry != Geometry::Backdrop).collect();
+        let views: Vec<_> = draws.iter().map(|_| ViewSet::new(gpu, &self.view_layout, field.addressing)).collect();
+        for (draw, set) in draws.iter().zip(&views) {
+            set.uniform.write(gpu, &draw.view);
+        }
+        self.pose(gpu, seen.time_seconds);
+        let depth = depth_buffer(gpu, size);
+        let mut readbacks = Vec::new();
+        for part in 0..CHANNEL_PARTS {
+            let output = Output::Channels(part);
+            for draw in &draws {
+                self.build(gpu, draw.choice, draw.geometry, output)?;
+            }
+            let target = channel_target(gpu, size);
+            let mut encoder = gpu.encoder("channels");
+            {
+                let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+                // No surface: no steps, but −1; every other channel 0.
+                let clear = wgpu::Color { r: 0.0, g: 0.0, b: 0.0, a: if part == 0 { -1.0 } else { 0.0 } };
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("channels"),
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: &view,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store },
+                    })],
+                    depth_stencil_attachment: Some(crate::gpu::timer::depth_attachment(&depth)),
+                    ..Default::default()
+                });
+                self.draw(&mut pass, &draws, &views, output);
+            }
+            let readback = Readback::record_texture(gpu, &mut encoder, &target, 0);
+            gpu.queue.submit([encoder.finish()]);
+            readback.start();
+            readbacks.push(readback);
+        }
+        Ok(readbacks)
+    }
+
+    /// Bytes of GPU memory that its buffers take.
+    pub fn memory_bytes(&self) -> u64 {
+        let [width, height] = self.size.map(u64::from);
+        self.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes()) + 4 * width * height
+    }
+}
+
+/// The draws of one material of a mesh.
+fn mesh_draws(mesh: &Mesh, triangles: Range<u32>, view: View, seen: &Seen<'_>, choice: Choice) -> Vec<Draw> {
+    let scene = seen.scene;
+    if scene.trace.shell {
+        return vec![Draw { geometry: Geometry::Shell, choice, triangles, view }];
+    }
+    let geometry = Geometry::Facets(scene.trace.displaced_depth);
+    if !mesh.is_planar {
+        return vec![Draw { geometry, choice, triangles, view }];
+    }
+    let draw = |chart: facet::Chart| {
+        let target = Target {
+            placement: chart.placement,
+            field_size: scene.field.size,
+            plane_size_metres: chart.tile_metres,
+            depth_metres: f64::from(view.depth_metres),
+        };
+        Draw { geometry, choice, triangles: chart.triangles, view: View { planar: 1, ..view.over(seen.camera, &target) } }
+    };
+    facet::charts(mesh, triangles).into_iter().map(draw).collect()
+}
+
+fn depth_buffer(gpu: &Gpu, size: [u32; 2]) -> wgpu::TextureView {
+    texture(gpu, "depth", size, raster::DEPTH_FORMAT, wgpu::TextureUsages::RENDER_ATTACHMENT)
+        .create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn channel_target(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+    texture(gpu, "channels", size, CHANNEL_FORMAT, usage)
+}
+
+fn texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
