@@ -27,12 +27,23 @@ fn matter_at(point: SurfacePoint) -> Matter {
     ground = mix(ground, rock, steep);
     let lies = smoothstep(0.48, 0.72, point.level + 0.20 * (altitude - 0.5));
     let snowy = smoothstep(0.50, 0.62, altitude) * lies;
-    // The river that made the valley.
-    let wet = 1.0 - smoothstep(0.050, 0.066, point.height + 0.012 * (patch_noise - 0.5));
-    ground = mix(ground, vec3f(0.030, 0.055, 0.060), wet);
+    // The sea is level; where land is near it is shallow, and a beach lies above it.
+    let wet = (1.0 - smoothstep(0.0502, 0.0515, point.height)) * step(0.9995, point.level);
+    let beach = 1.0 - smoothstep(0.056, 0.072, point.height + 0.01 * (fine - 0.5));
+    ground = mix(ground, vec3f(0.34, 0.29, 0.20) * mix(0.85, 1.1, fine), beach * smoothstep(0.7, 0.9, point.level));
+    if wet > 0.0 {
+        let near = 0.011 * f32(view.field_size.x);
+        let around = sample_height(point.lattice + vec2f(near, 0.0)) + sample_height(point.lattice - vec2f(near, 0.0))
+            + sample_height(point.lattice + vec2f(0.0, near)) + sample_height(point.lattice - vec2f(0.0, near));
+        let shallow = smoothstep(0.0, 0.05, 0.25 * around - point.height + 0.008 * (patch_noise - 0.5));
+        ground = mix(ground, mix(vec3f(0.012, 0.040, 0.065), vec3f(0.045, 0.165, 0.165), shallow), wet);
+    }
     let bare = mix(mix(ground, snow, snowy), vec3f(0.30, 0.26, 0.21), 0.7 * stamped.g);
     var matter = sooty(bare, stamped.r);
     // Snow and water glisten, meadows do not.
     matter.specular *= mix(mix(0.12, 0.5, snowy), 1.0, wet);
+    // Water mirrors the sky, the more the flatter one looks at it.
+    let seen = max(dot(point.normal_world, point.toward_eye), 0.02);
+    matter.glow = vec3f(wet * (0.02 + 0.98 * pow(1.0 - seen, 5.0)) * (1.0 - stamped.r)) * 1.25 * view.sky;
     return matter;
 }

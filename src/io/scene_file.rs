@@ -15,13 +15,15 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 6] = [
+pub const EMBEDDED: [(&str, &str); 8] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
     ("text", include_str!("../../scenes/text.toml")),
     ("terrain", include_str!("../../scenes/terrain.toml")),
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
+    ("cube", include_str!("../../scenes/cube.toml")),
+    ("planet", include_str!("../../scenes/planet.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.

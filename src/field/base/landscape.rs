@@ -1,4 +1,4 @@
-//! A landscape: mountains with gullies that run down their slopes, over a valley floor.
+//! A landscape: an island of mountains, with gullies that run down their slopes and a fjord between them.
 //!
 //! Erosion is imitated, not simulated, so that it stays a function of the place: on top of smooth mountains each octave adds furrows
 //! that run along the slope of everything coarser, deep where it is steep.
@@ -10,6 +10,9 @@ use super::noise::{gradient_octaves, hash_cell, hash_u32, smoothstep};
 /// Octaves of furrows: from a twelfth of the landscape down to some texels.
 const FURROW_OCTAVES: u32 = 5;
 
+/// Height of the sea, which is level.
+const SEA_LEVEL: f64 = 0.05;
+
 /// A landscape of one seed.
 pub(super) struct Landscape {
     salt: u32,
@@ -20,10 +23,25 @@ impl Landscape {
         Self { salt: hash_u32(seed as u32 ^ hash_u32((seed >> 32) as u32 ^ 0x51ed)) }
     }
 
-    /// Height at a position in widths of the plane.
-    pub(super) fn height(&self, u: f64, v: f64) -> f64 {
-        let at = DVec2::new(u, v);
-        let (mut height, mut slope) = self.mountains(at);
+    /// The heights of a field of this size, row by row.
+    pub(super) fn heights(&self, [width, height]: [u32; 2]) -> Vec<f32> {
+        // Positions are in widths of the plane. The smooth mountains once, with a border, for their slopes by differences.
+        let at = |x: i64, y: i64| DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(width);
+        let down = f64::from(height) / f64::from(width);
+        let (columns, rows) = (i64::from(width), i64::from(height));
+        let smooth: Vec<f64> =
+            (-1..=rows).flat_map(|y| (-1..=columns).map(move |x| (x, y))).map(|(x, y)| self.mountain(at(x, y), down)).collect();
+        let row = width as usize + 2;
+        let of_texel = |x: usize, y: usize| {
+            let here = (y + 1) * row + x + 1;
+            let rise = |step: usize| (smooth[here + step] - smooth[here - step]) * 0.5 * f64::from(width);
+            self.carve(at(x as i64, y as i64), smooth[here], DVec2::new(rise(1), rise(row))) as f32
+        };
+        (0..height as usize).flat_map(|y| (0..width as usize).map(move |x| (x, y))).map(|(x, y)| of_texel(x, y)).collect()
+    }
+
+    /// The height at a place where the smooth mountains have this height and slope.
+    fn carve(&self, at: DVec2, mut height: f64, mut slope: DVec2) -> f64 {
         let (mut frequency, mut strength) = (11.0, 0.060);
         for octave in 0..FURROW_OCTAVES {
             let (furrow, gradient) = furrows(at * frequency, slope, self.salt.wrapping_add(100 + octave));
@@ -34,20 +52,12 @@ impl Landscape {
             frequency *= 1.95;
             strength *= 0.50;
         }
-        let rough = gradient_octaves(u * 60.0, v * 60.0, self.salt.wrapping_add(80), 3);
-        (height + 0.006 * rough * smoothstep(0.08, 0.3, height)).clamp(0.0, 1.0)
+        let rough = gradient_octaves(at.x * 60.0, at.y * 60.0, self.salt.wrapping_add(80), 3);
+        (height + 0.006 * rough * smoothstep(0.08, 0.3, height)).clamp(SEA_LEVEL, 1.0)
     }
 
-    /// The smooth mountains, and their gradient by differences.
-    fn mountains(&self, at: DVec2) -> (f64, DVec2) {
-        let step = 2e-4;
-        let height = |offset: DVec2| self.mountain(at + offset);
-        let here = height(DVec2::ZERO);
-        let slope = DVec2::new(height(DVec2::X * step) - here, height(DVec2::Y * step) - here) / step;
-        (here, slope)
-    }
-
-    fn mountain(&self, at: DVec2) -> f64 {
+    /// The smooth mountains, on a plane that is `down` widths high. Its border is sea, so that nothing ends there.
+    fn mountain(&self, at: DVec2, down: f64) -> f64 {
         let noise =
             |scale: f64, salt: u32, octaves| gradient_octaves(at.x * scale, at.y * scale, self.salt.wrapping_add(salt), octaves);
         let warp = 0.10 * DVec2::new(noise(1.7, 10, 2), noise(1.7, 20, 2));
@@ -60,7 +70,10 @@ impl Landscape {
         // A valley winds through from the near left to the far right.
         let course = at.y - 0.62 + 0.45 * (at.x - 0.5) - 0.16 * (5.0 * at.x + 0.6).sin();
         let valley = smoothstep(0.03, 0.34, course.abs());
-        0.055 + valley * (0.13 + 0.62 * ranges * smoothstep(0.0, 0.9, swell) + 0.14 * swell)
+        let land = 0.035 + valley * (0.13 + 0.66 * ranges * smoothstep(0.0, 0.9, swell) + 0.14 * swell);
+        let from_border = at.min(DVec2::new(1.0, down) - at).min_element();
+        let coast = smoothstep(0.03, 0.22, from_border + 0.12 * noise(4.0, 50, 4)) * smoothstep(0.0, 0.05, from_border);
+        land * coast + (SEA_LEVEL - 0.05) * (1.0 - coast)
     }
 }
 
@@ -106,13 +119,19 @@ mod tests {
     }
 
     #[test]
-    fn heights_use_their_range() {
-        let landscape = Landscape::new(1);
-        let heights: Vec<f64> =
-            (0..64 * 64).map(|i| landscape.height(f64::from(i % 64) / 64.0, f64::from(i / 64) / 64.0)).collect();
-        let (low, high) = heights.iter().fold((1.0_f64, 0.0_f64), |(low, high), height| (low.min(*height), high.max(*height)));
-        assert!(low < 0.1 && high > 0.7, "from {low} to {high}");
-        let clipped = heights.iter().filter(|height| **height == 0.0 || **height == 1.0).count();
-        assert!(clipped * 50 < heights.len(), "{clipped} of {} lie on a bound", heights.len());
+    fn it_is_an_island_with_heights_that_use_their_range() {
+        let heights = Landscape::new(1).heights([96, 64]);
+        let highest = heights.iter().copied().fold(0.0, f32::max);
+        assert!(highest > 0.6, "the highest peak has {highest}");
+        let count = |of: f32| heights.iter().filter(|height| (**height - of).abs() < 1e-6).count();
+        assert!(count(1.0) * 100 < heights.len(), "{} of {} are cut off", count(1.0), heights.len());
+        let sea = count(SEA_LEVEL as f32);
+        assert!(sea * 8 > heights.len() && sea * 3 < heights.len() * 2, "{sea} of {} are sea", heights.len());
+        for (index, height) in heights.iter().enumerate() {
+            let (x, y) = (index % 96, index / 96);
+            if x == 0 || x == 95 || y == 0 || y == 63 {
+                assert!((height - SEA_LEVEL as f32).abs() < 1e-6, "{x}, {y}: {height}");
+            }
+        }
     }
 }

@@ -49,10 +49,7 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
         }
-        Base::Landscape {} => {
-            let landscape = Landscape::new(scene.seed);
-            Some(fill(&|x, y| landscape.height(x / plane_metres, y / plane_metres)))
-        }
+        Base::Landscape {} => Some(Landscape::new(scene.seed).heights(scene.field.size)),
         Base::Planet {} => {
             let planet = Planet::new(scene.seed);
             let down_metres = scene.plane_size_metres()[1];
