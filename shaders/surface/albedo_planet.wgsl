@@ -38,10 +38,10 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let dust = mix(vec3f(0.30, 0.145, 0.070), vec3f(0.46, 0.265, 0.140), broad) * mix(0.80, 1.12, fine);
     let lava = vec3f(0.105, 0.080, 0.072) * mix(0.75, 1.2, fine);
     let rock = mix(vec3f(0.36, 0.29, 0.235), vec3f(0.52, 0.45, 0.38), fine);
-    let low = 1.0 - smoothstep(0.33, 0.46, point.height + 0.16 * (broad - 0.5));
-    let high = smoothstep(0.52, 0.68, point.height + 0.10 * (fine - 0.5));
+    let low = 1.0 - smoothstep(0.36, 0.47, point.height + 0.18 * (broad - 0.5));
+    let high = smoothstep(0.53, 0.66, point.height + 0.10 * (fine - 0.5));
     let steep = 1.0 - smoothstep(0.70, 0.93, point.level);
-    var ground = mix(mix(dust, lava, 0.85 * low), rock, max(0.8 * high, 0.6 * steep));
+    var ground = mix(mix(dust, lava, 0.75 * low), rock, max(0.8 * high, 0.6 * steep));
     let frost = smoothstep(0.86, 0.93, abs(place.y) + 0.09 * (broad - 0.5) + 0.05 * (fine - 0.5));
     ground = mix(ground, vec3f(0.80, 0.82, 0.84), frost * smoothstep(0.45, 0.75, point.level));
     return sooty(mix(ground, rock, 0.6 * stamped.g), stamped.r);

@@ -13,7 +13,7 @@ pub(super) fn height(u: f64, v: f64) -> f64 {
     let angle = y.atan2(x);
 
     // A groove between tiles, then a band with two fillets.
-    let groove = smoothstep(0.975, 0.945, border);
+    let groove = 0.72 + 0.28 * smoothstep(0.99, 0.955, border);
     let band = hump(border, 0.885, 0.055);
     let fillet = hump(border, 0.795, 0.022);
     let field: f64 = 0.30;
@@ -52,7 +52,7 @@ pub(super) fn height(u: f64, v: f64) -> f64 {
 
     // Tool marks. They end before the border, where the next tile begins.
     let marks = fractal_noise(u * 46.0, v * 46.0, 61, 3) - 0.5;
-    (height * groove + 0.05 * marks * groove * (1.0 - 0.5 * band)).clamp(0.0, 1.0)
+    (height * groove + 0.05 * marks * smoothstep(0.99, 0.93, border) * (1.0 - 0.5 * band)).clamp(0.0, 1.0)
 }
 
 /// A rounded moulding of this half width round `middle`: 1 on its crest, 0 beside it.

@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::noise::{gradient_octaves_3, hash_cell, hash_u32, smoothstep};
 
 /// How many craters, from the largest to the smallest.
-const CRATERS: i32 = 420;
+const CRATERS: i32 = 640;
 
 /// Height of the poles.
 const POLE_HEIGHT: f64 = 0.5;
@@ -43,7 +43,7 @@ impl Planet {
                 let (z, longitude) = (2.0 * random(index, 1) - 1.0, TAU * random(index, 2));
                 let across = (1.0 - z * z).sqrt();
                 // Numbers fall with the square of the radius, as on the moon.
-                let radius = 0.018 / (f64::from(index + 1) / f64::from(CRATERS)).sqrt().max(0.055);
+                let radius = 0.024 / (f64::from(index + 1) / f64::from(CRATERS)).sqrt().max(0.055);
                 let centre = DVec3::new(across * longitude.cos(), z, across * longitude.sin());
                 Crater { centre, radius: radius * (0.8 + 0.4 * random(index, 3)), fresh: 0.35 + 0.65 * random(index, 4) }
             })
@@ -59,9 +59,9 @@ impl Planet {
         let warp = DVec3::new(noise(1.6, 10, 3), noise(1.6, 20, 3), noise(1.6, 30, 3));
         let lands = gradient_octaves_3(at * 1.5 + 0.55 * warp, self.salt.wrapping_add(40), 7);
         // Plains of old lava below, rough highlands above.
-        let high = smoothstep(-0.08, 0.20, lands);
-        let mut height =
-            0.44 + 0.20 * (high - 0.5) + 0.22 * lands * (0.35 + 0.65 * high) + 0.045 * noise(9.0, 60, 5) * (0.3 + high);
+        let high = smoothstep(-0.16, 0.10, lands);
+        let rough = 0.05 * noise(9.0, 60, 5) * (0.35 + high);
+        let mut height = 0.50 + 0.14 * (high - 0.5) + 0.20 * lands * (0.35 + 0.65 * high) + rough;
         for crater in &self.craters {
             let reach = 2.2 * crater.radius;
             let cosine = at.dot(crater.centre);
@@ -80,7 +80,7 @@ impl Crater {
     /// Height added at a distance from the middle, in radii.
     fn profile(&self, distance: f64, roughness: f64) -> f64 {
         let distance = distance * (1.0 + 0.10 * roughness);
-        let depth = self.fresh * (0.55 * self.radius).clamp(0.012, 0.085);
+        let depth = self.fresh * (1.5 * self.radius).clamp(0.035, 0.20);
         // A floor below, a wall that steepens toward the rim, and a blanket of what was thrown out.
         let bowl = if distance < 1.0 { -1.0 + 1.35 * smoothstep(0.35, 1.0, distance) } else { 0.0 };
         let blanket = if distance < 1.0 { 0.0 } else { 0.35 * (1.0 - smoothstep(1.0, 2.1, distance)).powi(2) };
