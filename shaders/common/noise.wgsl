@@ -1,5 +1,5 @@
 // Hashes and value noise for procedural materials. The hash is PCG's output function (O'Neill 2014) over a mixed coordinate; its
-// Rust twin in src/field/base.rs gives the same bits, so that colours can follow heights.
+// Rust twin in src/field/base/noise.rs gives the same bits, so that colours can follow heights.
 
 fn hash_u32(x: u32) -> u32 {
     let state = x * 747796405u + 2891336453u;

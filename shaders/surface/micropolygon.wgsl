@@ -71,6 +71,23 @@ fn micropolygon_hit(shown: Micropolygon) -> Hit {
     return Hit(lattice, shown.height, 1.0 - shown.height, 0u, HIT);
 }
 
+// The pixel's ray, over the polygon that the micropolygons stand for.
+fn micropolygon_ray(shown: Micropolygon, hit: Hit) -> Ray {
+    if view.planar != 0u {
+        return pixel_ray(shown.position.xy).ray;
+    }
+    let way = field_displacement(normalize(raster_direction(shown.position.xy)));
+    let travel = way.xy / max(-way.z, 1e-3 / view.depth_metres);
+    let start = hit.lattice - (1.0 - hit.height) * travel;
+    let cell = floor(start);
+    return view_ray(start - cell, travel, vec2i(cell));
+}
+
+fn micropolygon_outcome(shown: Micropolygon) -> Shaded {
+    let hit = micropolygon_hit(shown);
+    return shade_hit(micropolygon_ray(shown, hit), hit);
+}
+
 // How much of the pixel it may show.
 fn micropolygon_coverage(shown: Micropolygon) -> f32 {
     if view.planar == 2u {
@@ -86,7 +103,7 @@ fn micropolygon(varyings: Micropolygon) -> @location(0) vec4f {
     if coverage == 0.0 {
         discard;
     }
-    return vec4f(shown(shade_hit(micropolygon_hit(varyings))), coverage);
+    return vec4f(shown(micropolygon_outcome(varyings)), coverage);
 }
 
 @fragment
@@ -95,5 +112,5 @@ fn micropolygon_channel(varyings: Micropolygon) -> @location(0) vec4f {
     if view.planar == 2u && !shows_plane(pixel_ray(varyings.position.xy)) {
         discard;
     }
-    return channel_part(channel_of(shade_hit(micropolygon_hit(varyings))));
+    return channel_part(channel_of(micropolygon_outcome(varyings)));
 }

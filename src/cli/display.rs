@@ -13,7 +13,7 @@ pub struct DisplayOptions {
     #[arg(long, value_name = "NAME", value_parser = view, default_value = "final", help = view_help(), help_heading = "View")]
     view: Shows,
 
-    /// Gain of the view `error`: its brightest heat is an error of 1/G texels
+    /// Gain of the view `error` and of the pictures of errors: the brightest heat is an error of 1/G texels
     #[arg(long, value_name = "G", value_parser = gain, default_value = "1", allow_negative_numbers = true, help_heading = "View")]
     gain: f32,
 
@@ -32,6 +32,16 @@ struct SplitOption {
 }
 
 impl DisplayOptions {
+    /// How much errors are magnified.
+    pub fn gain(&self) -> f32 {
+        self.gain
+    }
+
+    /// Whether something else than the plain picture is asked for.
+    pub fn is_plain(&self) -> bool {
+        self.view == Shows::default() && self.split.is_none()
+    }
+
     /// What is shown of a scene.
     pub fn display(&self, scene: &Scene) -> Display {
         let split = self.split.map(|SplitOption { technique, shadow, fraction }| Split {

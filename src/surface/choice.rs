@@ -101,12 +101,20 @@ choices! {
         Plain = "plain", "albedo_plain", "Plain";
         /// Bricks in running bond.
         Brick = "brick", "albedo_brick", "Brick";
+        /// Cast bronze, rubbed bright where it stands out.
+        Bronze = "bronze", "albedo_bronze", "Bronze";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
         /// A leopard's coat, dark toward the roots.
         Fur = "fur", "albedo_fur", "Fur";
         /// A lawn with daisies, dark toward the roots.
         Grass = "grass", "albedo_grass", "Grass";
+        /// A picture.
+        Image = "image", "albedo_image", "Image";
+        /// Rock, dust and ice of a planet without air.
+        Planet = "planet", "albedo_planet", "Planet";
+        /// Grass, forest, rock and snow, by height and slope.
+        Terrain = "terrain", "albedo_terrain", "Terrain";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
         /// Clear glass over a table.

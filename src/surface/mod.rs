@@ -1,5 +1,6 @@
 //! How the field is seen: techniques, shadows, shading.
 
+pub mod albedo_image;
 pub mod channels;
 pub mod choice;
 pub mod display;
@@ -116,17 +117,30 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
         Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
-        Albedo::Plain | Albedo::Fur | Albedo::Water | Albedo::Glass => Vec::new(),
+        Albedo::Plain
+        | Albedo::Bronze
+        | Albedo::Fur
+        | Albedo::Glass
+        | Albedo::Image
+        | Albedo::Planet
+        | Albedo::Terrain
+        | Albedo::Water => Vec::new(),
     }
 }
 
-/// Bind group layout 1 of everything that traces: the field.
+/// Bind group layout 1 of everything that traces: the field, and the image over it.
 pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
         gpu,
         "field",
         wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        &[Binding::Float(gpu.filters_r32float()), Binding::Float(false), Binding::Float(true), Binding::Uint],
+        &[
+            Binding::Float(gpu.filters_r32float()),
+            Binding::Float(false),
+            Binding::Float(true),
+            Binding::Uint,
+            Binding::Float(true),
+        ],
     )
 }
 
@@ -139,6 +153,7 @@ pub(crate) fn bind_field(gpu: &Gpu, layout: &BindingLayout, field: &field::Field
             wgpu::BindingResource::TextureView(&field.pyramid.view),
             wgpu::BindingResource::TextureView(&field.normal.view),
             wgpu::BindingResource::TextureView(&field.material.view),
+            wgpu::BindingResource::TextureView(&field.albedo_map.view),
         ],
     )
 }

@@ -62,7 +62,7 @@ fn a_closed_mesh_stays_closed() {
 /// What every pixel shows.
 fn numbers(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>, size: [u32; 2]) -> Option<Vec<Channel>> {
     let gpu = gpu()?;
-    let start = Start { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh };
+    let start = Start::new(scene, heights, mesh);
     let mut frame = Frame::new(gpu, &start, size, PICTURE_FORMAT).expect("the scene fits");
     let tick = Clock::new(None).advance(Pace::Fixed { dt_seconds: 1.0 / 60.0 });
     let (strokes, camera) = (Strokes::default(), Camera::at(&scene.camera, 0.0));
