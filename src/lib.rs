@@ -48,6 +48,11 @@
 //!   its talk.
 //! - **\[PDM\]** K. Oh, H. Ki, C.-H. Lee, *Pyramidal Displacement Mapping*, VRST 2006, revised 2007.
 //! - **\[Zink\]** J. Zink, *A Closer Look at Parallax Occlusion Mapping*, GameDev.net 2006, revised 2008.
+//! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 (poster).
+//! - **\[Kaneko\]** T. Kaneko et al., *Detailed Shape Representation with Parallax Mapping*, ICAT 2001.
+//! - **\[Welsh\]** T. Welsh, *Parallax Mapping with Offset Limiting: A Per-Pixel Approximation of Uneven Surfaces*, 2004.
+//! - **\[Policarpo\]** F. Policarpo, M. Oliveira, J. Comba, *Real-Time Relief Mapping on Arbitrary Polygonal Surfaces*, I3D 2005;
+//!   its depth bias as in F. Policarpo, M. Oliveira, *Relaxed Cone Stepping for Relief Mapping*, GPU Gems 3, 2007.
 
 pub mod camera;
 pub mod cli;

@@ -39,6 +39,12 @@ fn the_binary_embeds_every_shader() {
 const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/albedo_brick", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
     ("surface/albedo_cobble", &["src", "reference", "tests"], "a colour: the goldens hold it; its layout is field/base.rs's"),
+    ("surface/albedo_fur", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    (
+        "surface/albedo_grass",
+        &["src", "reference", "tests"],
+        "a colour: the goldens hold it; its layout is field/base/strands.rs's",
+    ),
     ("surface/albedo_plain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_water", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/ball", &["src", "reference", "tests"], "draws what surface/balls proves"),
@@ -61,6 +67,7 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/truth_exact", &["src", "reference", "tests"], "calls what others prove; the captures' proof of views reads it"),
     ("surface/truth_none", &["src", "reference", "tests"], "nothing"),
     ("surface/views", &["src", "reference", "tests"], "numbers as colours: the captures' proof of views reads them"),
+    ("surface/micropolygon", &["reference"], "over a plane its specification is reference/trace_mesh.rs"),
     ("surface/surface", &["reference", "tests"], "calls what others prove; the goldens hold it"),
     ("surface/channels", &["reference", "tests"], "calls what others prove; the captures' proof reads it"),
     ("surface/probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),
@@ -68,9 +75,18 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
 
 /// Techniques and shadows are one WGSL file each and share the passes that run them: they have no Rust of their own.
 fn needs_rust(part: &str) -> bool {
-    !["surface/trace_", "surface/shadow_", "surface/traversal", "surface/light_ggx", "surface/light_phong", "surface/sky"]
-        .iter()
-        .any(|prefix| part.starts_with(prefix))
+    ![
+        "surface/trace_",
+        "surface/shadow_",
+        "surface/traversal",
+        "surface/march",
+        "surface/light_disc",
+        "surface/light_ggx",
+        "surface/light_phong",
+        "surface/sky",
+    ]
+    .iter()
+    .any(|prefix| part.starts_with(prefix))
 }
 
 #[test]

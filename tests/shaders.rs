@@ -12,6 +12,7 @@ use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
+use rilievo::scene::{PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
 use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::light_probe::{Lit, Matter};
@@ -136,11 +137,18 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 pom_samples_max,
                 shadow_samples,
                 shadow_strength,
+                pom_counts,
+                steep_layers,
+                relief_linear_steps,
+                relief_binary_steps,
+                relief_depth_bias,
+                pyramid_leaf,
                 u_world,
                 first_row,
                 v_world,
                 displaced_depth,
                 up_world,
+                mesh_quads,
                 origin_world,
                 eye_world,
                 specular,
@@ -163,6 +171,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 gain,
                 background,
                 light_count,
+                light_radius,
+                area_samples,
                 lights,
                 direction_x,
                 direction_y,
@@ -268,9 +278,16 @@ fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() 
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
     let tops = [("VIEWS_STEPS", Shows::STEPS_TOP), ("VIEWS_LEVELS", Shows::LEVELS_TOP)].map(|(name, top)| (name.to_owned(), top));
-    for (name, number) in shown.chain(became).chain(tops) {
+    let chosen = [("MARCH_BY_TEXELS".to_owned(), PomCounts::Texels as u32)];
+    for (name, number) in shown.chain(became).chain(tops).chain(chosen) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
     }
+}
+
+#[test]
+fn the_leaf_of_a_pyramid_has_the_same_number_on_both_sides() {
+    let module = module(&surface::parts(true, Choice { technique: Technique::Pyramid, ..Choice::PLAIN }, &["surface"]));
+    assert_eq!(constant(&module, "TRACE_PYRAMID_REFINED"), Some(PyramidLeaf::Refined as u32));
 }
 
 /// A module's constant of this name, where it is a literal.

@@ -1,9 +1,14 @@
 //! Bases: the heights that a field starts from, made on the CPU once.
 //!
 //! Procedural bases are functions of the position in metres and of the seed, so that another field size is a finer look at the
-//! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl` and `…_cobble.wgsl`).
+//! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl`, `…_cobble.wgsl`
+//! and `…_grass.wgsl`).
+
+mod strands;
 
 use std::f64::consts::TAU;
+
+pub use strands::DAISY_METRES;
 
 use super::wave;
 use crate::scene::{Addressing, Base, Boundary, Scene};
@@ -45,6 +50,8 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
         }
+        Base::Fur {} => Some(strands::fur(scene.field.size, texel_metres, scene.seed)),
+        Base::Grass {} => Some(strands::grass(scene.field.size, texel_metres, scene.seed)),
         Base::Image { .. } => None,
     }
 }
@@ -53,7 +60,7 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
 pub fn rest_height(base: &Base) -> f32 {
     match base {
         Base::Flat { height } => *height,
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Image { .. } => 1.0,
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} | Base::Image { .. } => 1.0,
     }
 }
 

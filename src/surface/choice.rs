@@ -45,8 +45,22 @@ choices! {
     Technique {
         /// Blinn's bump mapping: the surface stays where the polygon is, only its normal changes.
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
+        /// Parallax mapping: one sample says how far the texture shifts (\[Kaneko\]).
+        Parallax = "parallax", "trace_parallax", "Parallax (Kaneko)";
+        /// Parallax mapping whose shift is never longer than the surface is deep (\[Welsh\]).
+        ParallaxLimited = "parallax-limited", "trace_parallax_limited", "Parallax, limited (Welsh)";
+        /// Equal layers, and the first of them below the surface (\[Steep\]).
+        Steep = "steep", "trace_steep", "Steep parallax";
+        /// Relief mapping: a linear search, then a binary one (\[Policarpo\]).
+        Relief = "relief", "trace_relief", "Relief mapping (Policarpo)";
+        /// The linear search of parallax occlusion mapping alone (\[POM\] fig. 4).
+        PomLinear = "pom-linear", "trace_pom_linear", "POM, linear search alone";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
+        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
+        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
+        /// Pyramidal displacement mapping: down a pyramid of bounds to a column, then half a pixel's refinement (\[PDM\]).
+        Pyramid = "pyramid", "trace_pyramid", "Pyramidal displacement";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
@@ -57,10 +71,16 @@ choices! {
     Shadow {
         /// Nothing blocks the light.
         None = "none", "shadow_none", "None";
-        /// Weighted samples along the light ray (\[POM\] §3.2).
-        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// Layers of equal height toward the light, without interpolation (\[Steep\]).
+        Steep = "steep", "shadow_steep", "Steep";
         /// Any hit of the exact traversal.
         Hard = "hard", "shadow_hard", "Hard (exact)";
+        /// Weighted samples along the light ray (\[POM\] §3.2).
+        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// The light's disc in three slices, the horizon of each through the pyramid.
+        Cone = "cone", "shadow_cone", "Cone (soft)";
+        /// An exact ray to each of many points of the light's disc: the truth.
+        Area = "area", "shadow_area", "Area (truth)";
     }
 }
 
@@ -83,6 +103,10 @@ choices! {
         Brick = "brick", "albedo_brick", "Brick";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A leopard's coat, dark toward the roots.
+        Fur = "fur", "albedo_fur", "Fur";
+        /// A lawn with daisies, dark toward the roots.
+        Grass = "grass", "albedo_grass", "Grass";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
         /// Clear glass over a table.

@@ -13,6 +13,7 @@ mod simulation;
 mod split;
 mod style;
 mod surface;
+mod techniques;
 mod view;
 mod widgets;
 
