@@ -31,6 +31,8 @@
 //!   approximates this one surface, and exactness is measured against it.
 //! - **A flat base polygon clips nothing sideways**: a ray that leaves the plane before it hits goes on over the wrapped or
 //!   clamped field.
+//! - **A plane may repeat its field** (`plane.repeat`): copies surround the one in the middle, which stays where it is. Its size is
+//!   still that of one copy; uv leaves 0 to 1, world positions follow from it as before.
 //! - **Field space**: `u` right, `v` down the image (row 0 on top), height out of the surface: left-handed.
 //! - **World**: right-handed, metres, +y up. The plane lies in y = 0, centred on the origin, `u` along +x, `v` along +z; a point
 //!   of the surface is `((u − ½)·size.x, (h − 1)·depth, (v − ½)·size.y)`, with `depth` in metres.

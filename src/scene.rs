@@ -5,6 +5,8 @@
 
 mod bodies;
 mod framing;
+mod lights;
+mod lod;
 mod techniques;
 mod validate;
 
@@ -13,9 +15,11 @@ use std::path::PathBuf;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::surface::{Albedo, Shadow, Technique};
+use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
+pub use lod::{LOD_THRESHOLD, Lod};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
@@ -55,9 +59,15 @@ pub struct Scene {
     /// How the surface is traced.
     #[serde(default)]
     pub trace: Trace,
+    /// How closely it is looked at from afar.
+    #[serde(default)]
+    pub lod: Lod,
     /// The light.
     #[serde(default)]
     pub light: Light,
+    /// Other lights, three at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<DirectionalLight>,
     /// What the surface is made of.
     #[serde(default)]
     pub material: Material,
@@ -97,8 +107,12 @@ pub enum Addressing {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plane {
-    /// Extent along x, metres. The extent along z follows from the field's aspect: texels are square.
+    /// Extent of the field along x, metres. The extent along z follows from the field's aspect: texels are square.
     pub width_metres: f32,
+    /// How often the plane shows the field along u and v. One copy stays where the only one would be, the others surround it:
+    /// uv leaves 0 to 1, and all that says where a uv lies holds as it stands.
+    #[serde(deserialize_with = "exactly")]
+    pub repeat: [u32; 2],
     /// Depth of h = 0 below the plane, metres.
     pub depth_metres: f32,
 }
@@ -238,11 +252,15 @@ pub struct Trace {
     pub pom_samples_max: u32,
     /// What `pyramid` makes of a leaf.
     pub pyramid_leaf: PyramidLeaf,
-    /// Samples of `pom-soft` along the light ray.
+    /// About how many triangles `mesh` has.
+    pub mesh_triangles: u32,
+    /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
     pub shadow_samples: u32,
     /// Strength of `pom-soft`: how fast a blocker darkens.
     pub shadow_strength: f32,
-    /// Nodes that `pyramid`, `exact` and `hard` may visit before they give up and say so.
+    /// Points of the light's disc to which `area` sends a ray each.
+    pub area_samples: u32,
+    /// Nodes that one ray of `pyramid`, `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
@@ -260,6 +278,8 @@ pub struct Light {
     pub azimuth_degrees: f32,
     /// Direction toward the light: degrees above the plane.
     pub elevation_degrees: f32,
+    /// Half the angle that its disc spans, degrees: how soft `cone` and `area` shadows are. The sun's is 0.27.
+    pub half_angle_degrees: f32,
     /// Its colour, linear.
     #[serde(deserialize_with = "exactly")]
     pub colour: [f32; 3],
@@ -273,6 +293,10 @@ pub struct Light {
     pub ground: [f32; 3],
     /// Degrees a second that the light travels round the vertical.
     pub turn_degrees_per_second: f32,
+    /// Whether the relief hides it from itself.
+    pub casts_shadow: bool,
+    /// What is behind everything.
+    pub background: Background,
 }
 
 /// What the surface is made of.
@@ -284,10 +308,20 @@ pub struct Material {
     /// Tint of the albedo, linear.
     #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
-    /// Strength of the highlight, 0 to 1.
+    /// What light does to it.
+    pub model: Shading,
+    /// Strength of the highlight, 0 to 1; of `ggx` ½ is the 4 % of most dielectrics.
     pub specular: f32,
-    /// Exponent of the highlight (Blinn–Phong).
+    /// Exponent of the highlight of `phong`.
     pub shininess: f32,
+    /// How rough it is to `ggx`, 0 a mirror, 1 matt.
+    pub roughness: f32,
+    /// How metallic it is to `ggx`, 0 to 1.
+    pub metallic: f32,
+    /// How much of the sky it mirrors, of what Fresnel allows, 0 to 1.
+    pub reflection: f32,
+    /// Index of refraction, where it is transparent.
+    pub refractive_index: f32,
 }
 
 /// Where the surface is seen from.
@@ -306,6 +340,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// Metres a second that eye and target travel along x, y and z.
+    #[serde(deserialize_with = "exactly")]
+    pub fly_metres_per_second: [f64; 3],
 }
 
 fn one() -> f32 {
@@ -338,7 +375,9 @@ impl Default for Scene {
             wave: None,
             shots: None,
             trace: Trace::default(),
+            lod: Lod::default(),
             light: Light::default(),
+            lights: Vec::new(),
             material: Material::default(),
             mesh: None,
             balls: Vec::new(),
@@ -355,7 +394,7 @@ impl Default for FieldSettings {
 
 impl Default for Plane {
     fn default() -> Self {
-        Self { width_metres: 1.0, depth_metres: 0.1 }
+        Self { width_metres: 1.0, repeat: [1, 1], depth_metres: 0.1 }
     }
 }
 
@@ -406,9 +445,11 @@ impl Default for Trace {
             pom_counts: PomCounts::default(),
             pom_samples_min: 8,
             pom_samples_max: 50,
+            mesh_triangles: 131_072,
             pyramid_leaf: PyramidLeaf::default(),
             shadow_samples: 16,
             shadow_strength: 4.0,
+            area_samples: 64,
             step_cap: 4096,
             supersampling: 1,
             displaced_depth: false,
@@ -422,18 +463,31 @@ impl Default for Light {
         Self {
             azimuth_degrees: 215.0,
             elevation_degrees: 40.0,
+            half_angle_degrees: 1.5,
             colour: [1.0, 0.95, 0.88],
             intensity: 1.35,
             sky: [0.30, 0.37, 0.47],
             ground: [0.13, 0.10, 0.08],
             turn_degrees_per_second: 0.0,
+            casts_shadow: true,
+            background: Background::Studio,
         }
     }
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { albedo: Albedo::Plain, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
+        Self {
+            albedo: Albedo::Plain,
+            tint: [1.0, 1.0, 1.0],
+            model: Shading::Phong,
+            specular: 0.2,
+            shininess: 32.0,
+            roughness: 0.5,
+            metallic: 0.0,
+            reflection: 0.0,
+            refractive_index: 1.5,
+        }
     }
 }
 
@@ -445,6 +499,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            fly_metres_per_second: [0.0; 3],
         }
     }
 }

@@ -45,7 +45,7 @@ impl Relief {
     /// Milliseconds of the surface pass of one more frame.
     fn surface_ms(&mut self, gpu: &Gpu) -> f64 {
         let (tick, strokes) = (Tick::default(), Strokes::default());
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &self.camera, shows: Shows::Picture };
+        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &self.camera, display: Shows::Picture.into() };
         let mut encoder = gpu.encoder("speed");
         self.frame.record(gpu, &mut encoder, &input, Some(self.picture.view())).expect("there are no strokes");
         self.frame.finish(gpu, encoder);

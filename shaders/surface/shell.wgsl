@@ -177,6 +177,7 @@ fn shell_way(varyings: ShellVaryings) -> ShellWay {
         cross(per_height, per_u) * per_cells, up, per_u, per_v, per_height, vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0),
     );
     shell_normals(piece, anchor);
+    raster_footprint(varyings.position.xy, view.eye_world + view.eye_rest + (base + enter) * direction, frame_normal(anchor));
     // Sides between prisms are open; a ray comes in under the surface only through a border of the mesh.
     var edges = SHELL_EDGES;
     if entered < 4u && (edges[varyings.piece % 3u][entered] & piece.borders) != 0u {
@@ -208,7 +209,7 @@ fn shell(varyings: ShellVaryings) -> ColourAndDepth {
     if way.is_empty || hit.status == MISS {
         discard;
     }
-    let shaded = shade_hit(hit);
+    let shaded = shade_hit(way.ray, hit);
     return ColourAndDepth(vec4f(shown(shaded), 1.0), raster_depth(world_of(shaded.hit.lattice, shaded.hit.height)));
 }
 
@@ -220,6 +221,6 @@ fn shell_channel(varyings: ShellVaryings) -> ColourAndDepth {
     if way.is_empty || hit.status == MISS {
         discard;
     }
-    let shaded = shade_hit(hit);
+    let shaded = shade_hit(way.ray, hit);
     return ColourAndDepth(channel_part(channel_of(shaded)), raster_depth(world_of(shaded.hit.lattice, shaded.hit.height)));
 }

@@ -4,7 +4,7 @@
 // Specification: src/reference/trace_pom.rs. Needs surface/march.
 
 fn trace(ray: Ray) -> Hit {
-    let found = march(ray, march_samples(ray));
+    let found = march(ray, detail_samples(march_samples(ray)));
     if found.gap > 0.0 {
         return end_of(ray, found.steps);
     }

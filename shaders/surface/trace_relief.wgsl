@@ -20,7 +20,7 @@ fn trace_relief_share(ray: Ray) -> f32 {
 fn trace(ray: Ray) -> Hit {
     let share = trace_relief_share(ray);
     let biased = Ray(ray.lattice, share * ray.travel, ray.height, ray.rise, ray.cell, ray.t_end, ray.ends);
-    let found = march(biased, view.relief_linear_steps);
+    let found = march(biased, detail_samples(view.relief_linear_steps));
     if found.gap > 0.0 {
         return end_of(ray, found.steps);
     }

@@ -6,7 +6,7 @@
 // Specification: src/reference/trace_steep.rs. Needs surface/march.
 
 fn trace(ray: Ray) -> Hit {
-    let found = march(ray, view.steep_layers);
+    let found = march(ray, detail_samples(view.steep_layers));
     if found.gap > 0.0 {
         return end_of(ray, found.steps);
     }

@@ -5,15 +5,17 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Verbosity;
+use super::display::DisplayOptions;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
-    pyramid_leaf_help, sample_range, shadow, shadow_help, size, switch, technique, technique_help, whole_u64,
+    Detail, backend, camera, depth, field, fov, height_range, lod, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
+    pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, size, switch, technique, technique_help,
+    whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::MeshSource;
 use crate::scene::{PomCounts, PyramidLeaf};
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 /// What every mode that shows a scene takes.
 #[derive(Args, Clone, Debug, PartialEq)]
@@ -27,6 +29,9 @@ pub struct CommonOptions {
 
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
     pub(super) shadow: Option<Shadow>,
+
+    #[arg(long, value_name = "M", value_parser = shading, help = shading_help(), help_heading = "Scene")]
+    shading: Option<Shading>,
 
     /// Fewest and most samples of a ray: of pom and pom-linear head-on and edge-on; MAX is also the layers of steep and the
     /// linear steps of relief [default: the scene's]
@@ -42,6 +47,11 @@ pub struct CommonOptions {
 
     #[arg(long, value_name = "LEAF", value_parser = pyramid_leaf, help = pyramid_leaf_help(), help_heading = "Scene")]
     pyramid_leaf: Option<PyramidLeaf>,
+
+    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. exact stays exact
+    /// unless the scene says otherwise [default: the scene's]
+    #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
+    lod: Option<Detail>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -87,6 +97,10 @@ pub struct CommonOptions {
     #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
     fov: Option<f64>,
 
+    /// What is shown of it.
+    #[command(flatten)]
+    pub display: DisplayOptions,
+
     /// Which machine, and how much it tells.
     #[command(flatten)]
     pub machine: MachineOptions,
@@ -105,6 +119,8 @@ impl CommonOptions {
             displaced_depth: self.displaced_depth,
             technique: self.technique,
             shadow: self.shadow,
+            lod: self.lod.map(|detail| detail.0),
+            shading: self.shading,
             samples: self.samples,
             pom_counts: self.pom_counts,
             relief_depth_bias: self.relief_bias,

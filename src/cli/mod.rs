@@ -5,6 +5,7 @@
 
 mod common;
 mod compare;
+mod display;
 mod modes;
 mod refusal;
 #[cfg(test)]
@@ -18,6 +19,7 @@ use clap::{Parser, Subcommand};
 
 pub use common::{CommonOptions, MachineOptions};
 pub use compare::{CompareOptions, Truth};
+pub use display::DisplayOptions;
 pub use modes::{AdaptersOptions, CaptureOptions, Channel, LiveOptions, StressOptions};
 pub use refusal::Refusal;
 

@@ -49,7 +49,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --adapter llvm --backend gl -v \
          --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -66,6 +66,8 @@ fn values_arrive() {
             depth_metres: Some(0.25),
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
+            lod: Some(Some(2.5)),
+            shading: None,
             samples: Some([4, 20]),
             pom_counts: Some(PomCounts::Texels),
             relief_depth_bias: Some(true),
@@ -131,7 +133,13 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --relief-bias yes", "on and off"),
         ("live --pyramid-leaf blurred", "nearest and refined"),
         ("live --technique", "--technique"),
-        ("live --shadow soft", "none, pom-soft and hard"),
+        ("live --shading gxx", "did you mean `ggx`, of phong and ggx?"),
+        ("live --view nomrals", "did you mean `normals`"),
+        ("capture --out DIR --view", "--view"),
+        ("live --split pmo", "did you mean `pom`"),
+        ("live --split pom:hrad", "did you mean `hard`"),
+        ("live --split pom@2", "--split"),
+        ("live --shadow soft", "none, steep, hard, pom-soft, cone and area"),
         ("live --backend vulcan", "did you mean `vulkan`"),
         ("live --adapter=", "--adapter"),
         ("capture --out DIR --channels color,hight", "did you mean `height`"),
@@ -145,7 +153,9 @@ fn nonsense_is_refused_in_one_sentence() {
         ("height-range", "1,1 5,1 1 1,2,3 nan,1 0,inf a,b , -1e39,1e39"),
         ("depth", "0 -1 nan inf x 1e9"),
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
+        ("gain", "0 -1 nan inf x 1e9"),
         ("fov", "0 -45 180 nan inf x"),
+        ("lod", "-1 17 nan on x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),

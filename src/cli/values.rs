@@ -5,7 +5,7 @@ use crate::io::scene_file::{CameraPlacement, FieldSize};
 use crate::mesh::MeshSource;
 use crate::scene::{self, PomCounts, PyramidLeaf};
 use crate::suggest;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 pub(super) fn technique_help() -> String {
     format!("How the surface is traced: {} [default: the scene's]", technique_names("or"))
@@ -31,6 +31,21 @@ fn technique_names(conjunction: &str) -> String {
 fn shadow_names(conjunction: &str) -> String {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
     suggest::enumerate(&names, conjunction)
+}
+
+pub(super) fn shading_help() -> String {
+    let names: Vec<_> = Shading::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What light does to it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+/// One of a list, by its name.
+pub(super) fn one_of<T: Copy>(kind: &str, text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
+    let names: Vec<_> = all.iter().map(|&choice| name(choice)).collect();
+    all.iter().copied().find(|&choice| name(choice) == text).ok_or_else(|| suggest::unknown(kind, text, &names))
+}
+
+pub(super) fn shading(text: &str) -> Result<Shading, String> {
+    one_of("shading", text, Shading::ALL, Shading::name)
 }
 
 pub(super) fn technique(text: &str) -> Result<Technique, String> {
@@ -86,6 +101,20 @@ pub(super) fn sample_range(text: &str) -> Result<[u32; 2], String> {
             "it must be two whole numbers from 1 to {}, the first no more than the second, like 8,50",
             scene::SAMPLES_MAX
         )),
+    }
+}
+
+/// A threshold of the level of detail, or none: off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Detail(pub(super) Option<f32>);
+
+#[expect(clippy::cast_possible_truncation, reason = "a mip level has no use for more digits")]
+pub(super) fn lod(text: &str) -> Result<Detail, String> {
+    match text {
+        "off" => Ok(Detail(None)),
+        _ => number_within(text, scene::LOD_THRESHOLD)
+            .map(|level| Detail(Some(level as f32)))
+            .map_err(|problem| format!("{problem}, or off")),
     }
 }
 

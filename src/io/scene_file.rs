@@ -8,13 +8,14 @@ use super::mesh_file::{self, MeshError};
 use crate::mesh::{Mesh, MeshSource};
 use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, VERSION};
 use crate::suggest;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 5] = [
+pub const EMBEDDED: [(&str, &str); 6] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
+    ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
     ("fur", include_str!("../../scenes/fur.toml")),
     ("grass", include_str!("../../scenes/grass.toml")),
 ];
@@ -61,6 +62,10 @@ pub struct SceneOverrides {
     pub technique: Option<Technique>,
     /// The shadow upon it.
     pub shadow: Option<Shadow>,
+    /// Level of detail from this mip level on; `Some(None)` is off.
+    pub lod: Option<Option<f32>>,
+    /// What light does to it.
+    pub shading: Option<Shading>,
     /// Fewest and most samples of a ray, of every technique that takes samples.
     pub samples: Option<[u32; 2]>,
     /// How `pom` and `pom-linear` choose their counts.
@@ -290,6 +295,12 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(shadow) = overrides.shadow {
         scene.trace.shadow = shadow;
     }
+    if let Some(threshold) = overrides.lod {
+        scene.lod.threshold = threshold;
+    }
+    if let Some(shading) = overrides.shading {
+        scene.material.model = shading;
+    }
     if let Some([least, most]) = overrides.samples {
         let trace = &mut scene.trace;
         (trace.pom_samples_min, trace.pom_samples_max) = (least, most);
@@ -309,7 +320,8 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
         scene.seed = seed;
     }
     if let Some(CameraPlacement { eye, target }) = overrides.camera {
-        scene.camera = Camera { eye, target, orbit_degrees_per_second: 0.0, ..scene.camera };
+        let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+        scene.camera = Camera { eye, target, ..still };
     }
     if let Some(fov) = overrides.vertical_fov_degrees {
         scene.camera.vertical_fov_degrees = fov;

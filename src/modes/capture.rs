@@ -15,7 +15,7 @@ use crate::io::{exr_file, png_file};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::channels::Channel as Numbers;
-use crate::surface::{Channels, Choice, Shows, View};
+use crate::surface::{Channels, Choice, View};
 
 /// The format of the picture that becomes a PNG.
 pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -39,7 +39,8 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
         let tick = clock.advance(Pace::Fixed { dt_seconds: options.dt });
         let strokes = Strokes::of_scene(scene, scene.seed, &tick);
         let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+        let input =
+            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
         let file_index = number.checked_sub(u64::from(options.warmup));
         let target = file_index.map(|_| picture.view());
         let mut encoder = gpu.encoder("capture");
@@ -67,7 +68,7 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
 /// The device was lost, or a file cannot be written; nothing is left behind.
 pub fn write_last_frame(
     gpu: &Gpu,
-    frame: &Frame,
+    frame: &mut Frame,
     input: &FrameInput<'_>,
     dt_seconds: f64,
     warmup: u32,
@@ -113,10 +114,10 @@ impl Picture {
     /// # Errors
     ///
     /// The presentation cannot be built.
-    pub fn draw(&self, gpu: &Gpu, frame: &Frame, input: &FrameInput<'_>) -> Result<(), ModeError> {
+    pub fn draw(&self, gpu: &Gpu, frame: &mut Frame, input: &FrameInput<'_>) -> Result<(), ModeError> {
         let present = crate::present::Present::new(gpu, PICTURE_FORMAT)?;
         let mut encoder = gpu.encoder("picture");
-        frame.show_with(gpu, &mut encoder, &present, input, &self.view);
+        frame.show_with(gpu, &mut encoder, &present, input, &self.view)?;
         gpu.queue.submit([encoder.finish()]);
         Ok(())
     }
@@ -207,7 +208,7 @@ pub fn read_channels(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInp
         let parts: Vec<Vec<[f32; 4]>> = parts.iter().map(|bytes| bytemuck::pod_collect_to_vec(bytes)).collect();
         return Ok((0..parts[0].len()).map(|i| Numbers::from_parts([parts[0][i], parts[1][i], parts[2][i]])).collect());
     }
-    let view = View::new(frame.scene(), input.camera, input.tick.time_seconds, [width, height], input.shows);
+    let view = View::new(frame.scene(), input.camera, input.tick.time_seconds, [width, height], input.display);
     let rows = Channels::rows_per_band(gpu, width);
     let mut numbers = Vec::with_capacity(width as usize * height as usize);
     for first_row in (0..height).step_by(rows as usize) {

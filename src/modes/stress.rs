@@ -18,7 +18,7 @@ use crate::gpu::{Gpu, PassTime, Readback};
 use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
-use crate::surface::{Channels, Choice, Shows};
+use crate::surface::{Channels, Choice};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
 const WARMUP_FRAMES: u64 = 5;
@@ -91,7 +91,8 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         let (count, radius) = (options.stamps, options.stamp_radius);
         strokes.presses.extend(stroke::stress_discs(scene.seed, number, count, radius, scene.field.size));
         let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+        let input =
+            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
         let mut encoder = gpu.encoder("stress");
         let recording = Instant::now();
         frame.record(&gpu, &mut encoder, &input, Some(picture.view()))?;

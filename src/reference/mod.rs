@@ -5,16 +5,26 @@
 
 pub mod balls;
 pub mod compose;
+pub mod level_of_detail;
+pub mod light_disc;
+pub mod light_ggx;
+pub mod light_phong;
 pub mod march;
+pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
+pub mod shadow_area;
+pub mod shadow_cone;
 pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
+pub mod shadow_steep;
 pub mod shell;
+pub mod sky;
 pub mod stamp;
 pub mod trace_exact;
+pub mod trace_mesh;
 pub mod trace_normal;
 pub mod trace_parallax;
 pub mod trace_parallax_limited;

@@ -188,8 +188,8 @@ fn unfit_files_are_refused_with_their_line() {
     assert!(refusal(path).contains("2097152 bytes"));
     assert!(refusal("nowhere.toml").contains("no such file"));
     assert!(refusal("./nowhere").contains("no such file"));
-    assert!(refusal("riples").contains("did you mean `ripples`, of ripples, bullet-wall, relief, fur and grass?"));
-    assert!(refusal("").contains("known are ripples, bullet-wall, relief, fur and grass"));
+    assert!(refusal("riples").contains("did you mean `ripples`, of ripples, bullet-wall, relief, sidewalk, fur and grass?"));
+    assert!(refusal("").contains("known are ripples, bullet-wall, relief, sidewalk, fur and grass"));
 }
 
 #[test]

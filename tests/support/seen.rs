@@ -10,7 +10,7 @@ use rilievo::reference::HeightField;
 use rilievo::scene::Scene;
 use rilievo::stroke::Strokes;
 use rilievo::surface::channels::Channel;
-use rilievo::surface::{Channels, Choice, Shows};
+use rilievo::surface::{Channels, Choice, Display};
 
 /// What every pixel shows, row by row, and the picture, RGBA.
 pub fn seen(
@@ -26,7 +26,7 @@ pub fn seen(
     let picture = Picture::new(gpu, size);
     let pass = Channels::new(gpu, Choice::of(scene)).expect("its shaders compile");
     let (tick, strokes) = (Tick::default(), Strokes::default());
-    let input = FrameInput { tick: &tick, strokes: &strokes, camera, shows: Shows::Picture };
+    let input = FrameInput { tick: &tick, strokes: &strokes, camera, display: Display::default() };
     let mut encoder = gpu.encoder("seen");
     frame.record(gpu, &mut encoder, &input, Some(picture.view())).expect("there are no strokes");
     frame.finish(gpu, encoder);

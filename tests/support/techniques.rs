@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use rilievo::gpu::{Gpu, Preference};
 use rilievo::reference::traversal::Line;
 use rilievo::reference::{
-    Addressing, HeightField, Hit, Ray, march, trace_exact, trace_normal, trace_parallax, trace_parallax_limited, trace_pom,
-    trace_pom_linear, trace_pyramid, trace_relief, trace_steep,
+    Addressing, HeightField, Hit, Ray, march, trace_exact, trace_mesh, trace_normal, trace_parallax, trace_parallax_limited,
+    trace_pom, trace_pom_linear, trace_pyramid, trace_relief, trace_steep,
 };
 use rilievo::scene::{PomCounts, PyramidLeaf};
 use rilievo::surface::{Technique, View, probe};
@@ -45,6 +45,11 @@ pub fn expected(technique: Technique, view: &View, field: &HeightField, ray: &Ra
         Technique::Pom => trace_pom::trace(field, ray, samples(view, ray)),
         Technique::Pyramid if view.pyramid_leaf == PyramidLeaf::Nearest as u32 => trace_pyramid::trace_nearest(field, ray),
         Technique::Pyramid => trace_pyramid::trace_refined(field, ray),
+        Technique::Mesh => {
+            let line = Line::from(ray);
+            let end = f64::from(ray.t_end);
+            Hit::on(ray, trace_mesh::meets(field, view.mesh_quads, &line, end).unwrap_or(end), 1)
+        }
         Technique::Exact => trace_exact::trace(field, ray),
     }
 }

@@ -83,6 +83,30 @@ pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 /// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
 pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
 
+/// A component of a mean of normals: each level is stored as a half, whose rounding the levels above it inherit.
+pub fn normal_mip(level: usize) -> f64 {
+    (1 + level) as f64 * NORMAL_COMPONENT
+}
+
+/// Mip level of a pixel: a gradient of f32 coefficients less a position's share of another, and the logarithm of it.
+pub const MIP_LEVEL: f64 = 1e-3;
+
+/// Height of the plane that is left of a relief: its mean is stored as a half, once a level.
+pub const MEAN_PLANE: f64 = 4e-3;
+
+/// How far a sixtieth of a level may move the height of the coarse surface: the difference of two neighbouring levels of mean
+/// heights on a smooth field is some tenths, and a level that popped would move it by all of that.
+pub const DETAIL_STEP: f64 = 0.01;
+
+/// A flight with level of detail against the same without, levels of 255 of its pictures: the project's bars.
+pub const FLIGHT_MEAN: f64 = 4.0;
+/// The 99th percentile of the same.
+pub const FLIGHT_P99: u8 = 16;
+/// Share of the steps that level of detail saves on it.
+pub const FLIGHT_SAVED: f64 = 0.4;
+/// The 99th percentile of the differences from frame to frame, in those of the flight without.
+pub const FLIGHT_FLICKER: f64 = 1.1;
+
 /// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
 /// two or three.
 pub const GOLDEN_LEVELS: u8 = 3;
@@ -143,3 +167,76 @@ pub const SOFT_VARIATION: f64 = 1.01;
 /// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
 /// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
 pub const COMPARED_P99: f64 = 1e-3;
+/// A light model against its f64 reference, of the largest value in the list: some thirty operations at 2⁻²⁴, and a power whose
+/// base is off by one rounding, times an exponent of up to 512.
+pub const LIGHT: f64 = 4e-5;
+
+/// Reciprocity of a light model in f64: rounding alone.
+pub const RECIPROCITY: f64 = 1e-12;
+
+/// The integral of GGX over the hemisphere, by a quadrature of 4,000 angles that follow the lobe.
+pub const DISTRIBUTION_INTEGRAL: f64 = 1e-6;
+
+/// What a directional albedo may exceed 1 by: the error of its quadrature.
+pub const FURNACE: f64 = 1e-4;
+
+/// Single-scatter loss against what the shader's header states: its last digit.
+pub const FURNACE_STATED: f64 = 1e-3;
+
+/// The sky against its f64 reference, and its mean against the colours that it is made of: the horizon's soft edge lends each
+/// half a ten-thousandth of the other.
+pub const SKY: f64 = 1e-6;
+/// See [`SKY`].
+pub const SKY_MEAN: f64 = 2e-4;
+/// Share of receivers where `steep` may differ from its f64 reference: a layer that only just grazes, and the filter's 8 bits.
+pub const STEEP_OFF_SHARE: f64 = 2e-3;
+
+/// Share of receivers where 4,096 layers may differ from a hard shadow: blockers that stand up for less than a layer.
+pub const STEEP_HARD_SHARE: f64 = 5e-3;
+
+/// Points of the light's disc that a straight cut may have too many or too few, times their number to the power of ¼.
+pub const DISC_POINTS: f64 = 1.0;
+
+/// `area` against its f64 reference, root of the mean square: where a ray grazes, rounding decides one point of 32.
+pub const AREA_RMS: f64 = 2e-3;
+
+/// `area` with 1,024 points against the disc's ramp: a cut's too many or too few points, and the ramp of the texel that the
+/// bilinear step is wide.
+pub const AREA_RAMP: f64 = 0.01;
+
+/// `cone` against its f64 reference: rounding of a slope over the light's radius.
+pub const CONE_VISIBILITY: f64 = 5e-3;
+
+/// Share of receivers where it may differ by more.
+pub const CONE_OFF_SHARE: f64 = 5e-3;
+
+/// What rounding may add to the visibility of a blocker that grows.
+pub const CONE_ROUNDING: f64 = 1e-4;
+
+/// `cone` against the disc's ramp behind a straight step, whose bilinear edge is one texel wide.
+pub const CONE_RAMP: f64 = 0.01;
+
+/// Root of the mean square of what `cone` differs from the truth on a wall, a step and smooth terrain: the project's bar.
+pub const CONE_RMS: f64 = 0.03;
+
+/// Share of receivers to which a light of a milliradian is a point: the project's bar.
+pub const CONE_POINT_SHARE: f64 = 0.999;
+/// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
+/// MikkTSpace.
+pub const MESH_FRAME: f64 = 1e-5;
+
+/// Metres by which a position of about one metre may be off after a handful of affine maps in f32.
+pub const MESH_LENGTH: f64 = 1e-5;
+
+/// The ray's parameter at a hit of the micropolygon mesh: the rounding of a height over the angle between ray and facet.
+pub const MESH_PARAMETER: f64 = 1e-5;
+
+/// Share of rays through it that may end elsewhere: a ray that only just passes an edge, by rounding.
+pub const MESH_OFF_SHARE: f64 = 2e-3;
+
+/// Cells by which a pixel of rasterised micropolygons may be off: interpolation snaps corners to 1/256 pixel, and a pixel of that
+/// test is some 1.5 cells wide, several where the surface turns away.
+pub const MESH_PIXEL_CELLS: f64 = 0.05;
+
+/// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
+pub const MESH_PIXEL_SHARE: f64 = 2e-3;

@@ -33,7 +33,7 @@ fn beyond(technique: Technique, view: &View) -> Option<f32> {
         Technique::Steep => Some(1.0 / view.steep_layers),
         Technique::Relief => Some(0.5_f32.powi(view.relief_binary_steps as i32) / view.relief_linear_steps),
         Technique::PomLinear => Some(1.0 / view.pom_samples_min),
-        Technique::Parallax | Technique::Pom | Technique::Pyramid | Technique::Exact => Some(0.0),
+        Technique::Parallax | Technique::Pom | Technique::Pyramid | Technique::Mesh | Technique::Exact => Some(0.0),
     }
 }
 

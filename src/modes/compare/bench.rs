@@ -16,7 +16,7 @@ use crate::modes::{ModeError, wait_for_gpu};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::channels::Channel;
-use crate::surface::{Channels, Choice, Shows};
+use crate::surface::{Channels, Choice, Display};
 
 /// Time from frame to frame before the instant, seconds: capture's own default.
 pub const DT_SECONDS: f64 = 1.0 / 60.0;
@@ -66,7 +66,7 @@ impl Bench {
             tick = clock.advance(Pace::Fixed { dt_seconds: DT_SECONDS });
             let strokes = Strokes::of_scene(scene, scene.seed, &tick);
             let camera = Camera::at(&scene.camera, tick.time_seconds);
-            let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+            let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Display::default() };
             let target = (number == warmup).then_some(picture.view());
             let mut encoder = gpu.encoder("compare");
             frame.record(gpu, &mut encoder, &input, target)?;
@@ -140,7 +140,7 @@ impl Bench {
             Entry::Occupied(entry) => entry.into_mut(),
             Entry::Vacant(entry) => entry.insert(Channels::new(gpu, choice)?),
         };
-        let input = FrameInput { tick: &self.tick, strokes: &Strokes::default(), camera, shows: Shows::Picture };
+        let input = FrameInput { tick: &self.tick, strokes: &Strokes::default(), camera, display: Display::default() };
         let pixels = read_channels(gpu, &self.frame, pass, &input)?;
         Ok(Shown { picture, pixels })
     }
@@ -155,7 +155,7 @@ impl Bench {
         if *self.frame.scene() != scene {
             self.frame.set_scene(gpu, &scene)?;
         }
-        let input = FrameInput { tick: &self.tick, strokes: &Strokes::default(), camera, shows: Shows::Picture };
+        let input = FrameInput { tick: &self.tick, strokes: &Strokes::default(), camera, display: Display::default() };
         let mut encoder = gpu.encoder("compare");
         self.frame.record(gpu, &mut encoder, &input, Some(self.picture.view()))?;
         self.frame.finish(gpu, encoder);

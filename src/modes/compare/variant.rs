@@ -47,7 +47,12 @@ impl Variant {
 pub fn has_samples(technique: Technique) -> bool {
     match technique {
         Technique::Steep | Technique::Relief | Technique::PomLinear | Technique::Pom => true,
-        Technique::Normal | Technique::Parallax | Technique::ParallaxLimited | Technique::Pyramid | Technique::Exact => false,
+        Technique::Normal
+        | Technique::Parallax
+        | Technique::ParallaxLimited
+        | Technique::Pyramid
+        | Technique::Exact
+        | Technique::Mesh => false,
     }
 }
 

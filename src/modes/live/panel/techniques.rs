@@ -28,6 +28,11 @@ pub fn rows(ui: &mut Ui, trace: &mut Trace, was: &Trace) {
             const LEAF: &str = "What the ray meets at the finest level ([PDM] fig. 14)";
             choice(ui, "Leaf", LEAF, &mut trace.pyramid_leaf, was.pyramid_leaf, PyramidLeaf::ALL, PyramidLeaf::label);
         }
+        Technique::Mesh => {
+            let tip = "About how many micropolygons there are";
+            let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
+            value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
+        }
         Technique::Normal | Technique::Parallax | Technique::ParallaxLimited | Technique::Exact => {}
     }
 }
