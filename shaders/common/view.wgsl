@@ -72,6 +72,7 @@ struct View {
     gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
     background: u32,             // what is behind everything: see surface/sky.wgsl
     light_count: u32,
+    level_cap: u32,              // of the view that ends the traversal at a level
     lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
 
     // The pixel's direction in the world, with unit length along the view axis.

@@ -43,6 +43,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/channels"
     "surface/facet"
     "surface/frame"
+    "surface/level_cap"
     "surface/light_ggx"
     "surface/light_phong"
     "surface/light_probe"

@@ -111,12 +111,24 @@ pub enum Shows {
     Level = 6,
     /// How far the point that the technique found lies from the one of the exact traversal, as heat.
     Error = 7,
+    /// The picture, where the traversal ends at a chosen level of the pyramid and takes its bounds for the surface, as boxes
+    /// (\[PDM\] fig. 18).
+    LevelCap = 8,
 }
 
 impl Shows {
     /// Every view, in the order in which a key cycles them.
-    pub const ALL: &'static [Self] =
-        &[Self::Picture, Self::Height, Self::Normal, Self::UvOffset, Self::Visibility, Self::Steps, Self::Level, Self::Error];
+    pub const ALL: &'static [Self] = &[
+        Self::Picture,
+        Self::Height,
+        Self::Normal,
+        Self::UvOffset,
+        Self::Visibility,
+        Self::Steps,
+        Self::Level,
+        Self::LevelCap,
+        Self::Error,
+    ];
 
     /// Its name on the command line.
     pub const fn name(self) -> &'static str {
@@ -128,8 +140,14 @@ impl Shows {
             Self::Visibility => "visibility",
             Self::Steps => "steps",
             Self::Level => "pyramid-level",
+            Self::LevelCap => "level-cap",
             Self::Error => "error",
         }
+    }
+
+    /// Whether it is a picture, which is tone-mapped: numbers are shown as they are.
+    pub const fn is_picture(self) -> bool {
+        matches!(self, Self::Picture | Self::LevelCap)
     }
 
     /// What the brightest heat of the view stands for, where it has one; `gain` is that of the view of errors.
@@ -138,7 +156,7 @@ impl Shows {
             Self::Steps => Some(Self::STEPS_TOP as f32),
             Self::Level => Some(Self::LEVELS_TOP as f32),
             Self::Error => Some(1.0 / gain),
-            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset => None,
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LevelCap => None,
         }
     }
 
@@ -150,7 +168,7 @@ impl Shows {
             Self::Error => "texels",
             Self::Height => "of the depth",
             Self::Visibility => "of the light",
-            Self::Picture | Self::Normal | Self::UvOffset => "",
+            Self::Picture | Self::Normal | Self::UvOffset | Self::LevelCap => "",
         }
     }
 
@@ -175,6 +193,7 @@ impl Shows {
             Self::Visibility => "Visibility of the light",
             Self::Steps => "Steps a pixel",
             Self::Level => "Level of the pyramid",
+            Self::LevelCap => "Cap of the level",
             Self::Error => "Error against exact",
         }
     }

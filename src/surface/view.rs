@@ -85,7 +85,8 @@ pub struct View {
     pub gain: f32,
     pub background: u32,
     pub light_count: u32,
-    pub pad_lights: [u32; 2],
+    pub level_cap: u32,
+    pub pad_lights: u32,
     pub lights: [ViewLight; LIGHTS_MAX],
     pub direction_x: LinearForm,
     pub direction_y: LinearForm,
@@ -152,6 +153,7 @@ impl View {
             gain: display.gain,
             background: scene.light.background as u32,
             light_count: all_lights.len() as u32,
+            level_cap: display.level_cap,
             lights,
             // Validation refuses more balls than there is room for.
             ball_count: scene.balls.len() as u32,

@@ -7,11 +7,13 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 4] = [
+const GOLDENS: [(&str, &[&str]); 6] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("relief", &["--scene", "relief"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
+    ("relief-ggx", &["--scene", "relief", "--shading", "ggx"]),
+    ("glass", &["--scene", "tests/goldens/glass.toml"]),
 ];
 
 fn golden(name: &str) -> PathBuf {
