@@ -8,6 +8,7 @@
 //! - `fallbacks`: adapters that lack what WebGPU's baseline lacks.
 //! - `command_line`: exit codes, one sentence for an error, nothing left behind; the program runs as a process.
 //! - `io`: files in and out, whole, odd, damaged and hostile.
+//! - `mesh`: shapes, files of meshes and what moves them, without a GPU.
 //! - `speed`: what it may cost, measured side by side in one run.
 //! - `support`: what they share; every tolerance stands once, in `support/tolerances.rs`.
 //!
@@ -20,6 +21,7 @@ mod fallbacks;
 mod field;
 mod house;
 mod io;
+mod mesh;
 mod modes;
 mod shaders;
 mod speed;

@@ -7,6 +7,14 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// How level of detail is chosen: see surface/level_of_detail.wgsl.
+struct ViewDetail {
+    threshold: f32, // mip level beyond which normal mapping alone is left
+    traces: u32,    // 1 where the trace heeds it
+    filters: u32,   // 1 where light falls on what a pixel sees, not on one point
+    pad: u32,
+}
+
 // A light without extent, infinitely far away.
 struct ViewLight {
     toward: vec3f,      // unit vector toward it, world
@@ -42,12 +50,20 @@ struct View {
     shadow_samples: f32,
     shadow_strength: f32,
 
+    pom_counts: u32,             // how pom chooses its counts: see surface/march.wgsl
+    steep_layers: f32,
+    relief_linear_steps: f32,
+    relief_binary_steps: u32,
+    relief_depth_bias: u32,      // 1 where relief shortens the offset of grazing rays, else 0
+    pyramid_leaf: u32,           // what pyramid makes of a leaf: see surface/trace_pyramid.wgsl
+
     // The plane's axes, unit vectors in the world, and its middle.
     u_world: vec3f,
     first_row: u32,              // of the band that channels are written for
     v_world: vec3f,
     displaced_depth: u32,        // 1 where the depth of a pixel is that of the relief, 0 where it is that of the polygon
     up_world: vec3f,
+    mesh_quads: u32,             // of the micropolygon mesh along either side of a tile
     origin_world: vec3f,
 
     eye_world: vec3f,
@@ -64,7 +80,9 @@ struct View {
     roughness: f32,              // 0 a mirror, 1 matt
 
     image_size: vec2u,           // of the traced picture, pixels
-    planar: u32,                 // 1 where a mesh's facets take their rays from the forms above
+    // 1 where what is drawn takes its rays from the forms above, 2 where it is the plane alone, clipped to its border, 0 where it
+    // takes them from each point's tangent space.
+    planar: u32,
     ball_count: u32,
     metallic: f32,               // 0 a dielectric, 1 a metal
     reflection: f32,             // how much of its surroundings the surface mirrors
@@ -72,6 +90,8 @@ struct View {
     gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
     background: u32,             // what is behind everything: see surface/sky.wgsl
     light_count: u32,
+    light_radius: f32,           // tangent of half the angle that the light's disc spans
+    area_samples: u32,           // points of the light's disc
     level_cap: u32,              // of the view that ends the traversal at a level
     lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
 
@@ -84,6 +104,9 @@ struct View {
     near_metres: f32,
     forward_world: vec3f,        // unit, along the view axis
     balls: array<Ball, 4>,
+    repeat: vec2f,               // how often the plane shows the field along u and v
+    pad_repeat: vec2f,
+    detail: ViewDetail,
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

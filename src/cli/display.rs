@@ -13,7 +13,7 @@ pub struct DisplayOptions {
     #[arg(long, value_name = "NAME", value_parser = view, default_value = "final", help = view_help(), help_heading = "View")]
     view: Shows,
 
-    /// Gain of the view `error`: its brightest heat is an error of 1/G texels
+    /// Gain of the view `error`, and of the pictures of errors that compare writes: their brightest heat is an error of 1/G texels
     #[arg(long, value_name = "G", value_parser = gain, default_value = "1", allow_negative_numbers = true, help_heading = "View")]
     gain: f32,
 
@@ -36,6 +36,11 @@ struct SplitOption {
 }
 
 impl DisplayOptions {
+    /// Gain of what shows errors.
+    pub fn gain(&self) -> f64 {
+        self.gain.into()
+    }
+
     /// What is shown of a scene.
     pub fn display(&self, scene: &Scene) -> Display {
         let split = self.split.map(|SplitOption { technique, shadow, fraction }| Split {

@@ -45,8 +45,22 @@ choices! {
     Technique {
         /// Blinn's bump mapping: the surface stays where the polygon is, only its normal changes.
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
+        /// Parallax mapping: one sample says how far the texture shifts (\[Kaneko\]).
+        Parallax = "parallax", "trace_parallax", "Parallax (Kaneko)";
+        /// Parallax mapping whose shift is never longer than the surface is deep (\[Welsh\]).
+        ParallaxLimited = "parallax-limited", "trace_parallax_limited", "Parallax, limited (Welsh)";
+        /// Equal layers, and the first of them below the surface (\[Steep\]).
+        Steep = "steep", "trace_steep", "Steep parallax";
+        /// Relief mapping: a linear search, then a binary one (\[Policarpo\]).
+        Relief = "relief", "trace_relief", "Relief mapping (Policarpo)";
+        /// The linear search of parallax occlusion mapping alone (\[POM\] fig. 4).
+        PomLinear = "pom-linear", "trace_pom_linear", "POM, linear search alone";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
+        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
+        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
+        /// Pyramidal displacement mapping: down a pyramid of bounds to a column, then half a pixel's refinement (\[PDM\]).
+        Pyramid = "pyramid", "trace_pyramid", "Pyramidal displacement";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
@@ -57,10 +71,16 @@ choices! {
     Shadow {
         /// Nothing blocks the light.
         None = "none", "shadow_none", "None";
-        /// Weighted samples along the light ray (\[POM\] §3.2).
-        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// Layers of equal height toward the light, without interpolation (\[Steep\]).
+        Steep = "steep", "shadow_steep", "Steep";
         /// Any hit of the exact traversal.
         Hard = "hard", "shadow_hard", "Hard (exact)";
+        /// Weighted samples along the light ray (\[POM\] §3.2).
+        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// The light's disc in three slices, the horizon of each through the pyramid.
+        Cone = "cone", "shadow_cone", "Cone (soft)";
+        /// An exact ray to each of many points of the light's disc: the truth.
+        Area = "area", "shadow_area", "Area (truth)";
     }
 }
 
@@ -83,6 +103,10 @@ choices! {
         Brick = "brick", "albedo_brick", "Brick";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A leopard's coat, dark toward the roots.
+        Fur = "fur", "albedo_fur", "Fur";
+        /// A lawn with daisies, dark toward the roots.
+        Grass = "grass", "albedo_grass", "Grass";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
         /// Clear glass over a table.
@@ -114,6 +138,10 @@ pub enum Shows {
     /// The picture, where the traversal ends at a chosen level of the pyramid and takes its bounds for the surface, as boxes
     /// (\[PDM\] fig. 18).
     LevelCap = 8,
+    /// The mip level of the pixel, as heat.
+    MipLevel = 16,
+    /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
+    LodTint = 17,
 }
 
 impl Shows {
@@ -127,6 +155,8 @@ impl Shows {
         Self::Steps,
         Self::Level,
         Self::LevelCap,
+        Self::MipLevel,
+        Self::LodTint,
         Self::Error,
     ];
 
@@ -142,21 +172,25 @@ impl Shows {
             Self::Level => "pyramid-level",
             Self::LevelCap => "level-cap",
             Self::Error => "error",
+            Self::MipLevel => "mip-level",
+            Self::LodTint => "lod-tint",
         }
     }
 
     /// Whether it is a picture, which is tone-mapped: numbers are shown as they are.
     pub const fn is_picture(self) -> bool {
-        matches!(self, Self::Picture | Self::LevelCap)
+        matches!(self, Self::Picture | Self::LevelCap | Self::LodTint)
     }
 
     /// What the brightest heat of the view stands for, where it has one; `gain` is that of the view of errors.
     pub fn heat_top(self, gain: f32) -> Option<f32> {
         match self {
             Self::Steps => Some(Self::STEPS_TOP as f32),
-            Self::Level => Some(Self::LEVELS_TOP as f32),
+            Self::Level | Self::MipLevel => Some(Self::LEVELS_TOP as f32),
             Self::Error => Some(1.0 / gain),
-            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LevelCap => None,
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LevelCap | Self::LodTint => {
+                None
+            }
         }
     }
 
@@ -164,11 +198,11 @@ impl Shows {
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Steps => "height samples or nodes",
-            Self::Level => "levels",
+            Self::Level | Self::MipLevel => "levels",
             Self::Error => "texels",
             Self::Height => "of the depth",
             Self::Visibility => "of the light",
-            Self::Picture | Self::Normal | Self::UvOffset | Self::LevelCap => "",
+            Self::Picture | Self::Normal | Self::UvOffset | Self::LevelCap | Self::LodTint => "",
         }
     }
 
@@ -195,6 +229,8 @@ impl Shows {
             Self::Level => "Level of the pyramid",
             Self::LevelCap => "Cap of the level",
             Self::Error => "Error against exact",
+            Self::MipLevel => "Mip level",
+            Self::LodTint => "Level of detail in blue",
         }
     }
 }

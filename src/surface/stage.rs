@@ -5,9 +5,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::micropolygon::{Micropolygons, Plan};
 use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
 use super::ray_map::Target;
-use super::{Choice, Display, Shows, View, ViewSet, bind_field, facet, field_layout, view};
+use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
 use crate::camera::Camera;
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Gpu, Readback, Recorder, ShaderError};
@@ -23,6 +24,7 @@ pub struct Stage {
     /// Built when they are first needed.
     pipelines: RefCell<HashMap<(Choice, Geometry, Output), wgpu::RenderPipeline>>,
     mesh: Option<Body>,
+    micropolygons: Option<Micropolygons>,
     /// The bindings of an empty mesh, for what has none.
     no_mesh: MeshBuffers,
     /// One for each draw at most, on each side of a divider.
@@ -61,7 +63,9 @@ pub struct Seen<'a> {
 impl Stage {
     /// Whether a scene without a mesh needs one: else the plane alone is drawn, which antialiases its border.
     pub fn is_needed(scene: &Scene) -> bool {
-        !scene.balls.is_empty() || scene.trace.shell || scene.trace.displaced_depth
+        let trace = &scene.trace;
+        let is_rasterised = trace.shell || trace.displaced_depth || trace.technique == Technique::Mesh;
+        !scene.balls.is_empty() || is_rasterised
     }
 
     /// Makes one for pictures of `size` traced pixels; `mesh` is the scene's, or the plane where its shell is drawn.
@@ -76,6 +80,7 @@ impl Stage {
             field_group,
             pipelines: RefCell::default(),
             mesh: None,
+            micropolygons: None,
             no_mesh,
             views: Default::default(),
             depth: depth_buffer(gpu, size),
@@ -87,6 +92,10 @@ impl Stage {
 
     /// Puts another mesh on it.
     pub fn set_mesh(&mut self, gpu: &Gpu, mesh: Option<Mesh>) {
+        if self.mesh.as_ref().map(|body| &body.mesh) == mesh.as_ref() {
+            return;
+        }
+        self.micropolygons = None;
         self.mesh = mesh.map(|mesh| {
             let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, true);
             Body { mesh, buffers }
@@ -109,6 +118,7 @@ impl Stage {
     ///
     /// A shader does not compile.
     pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene, shows: Shows, side: usize) -> Result<(), ShaderError> {
+        self.prepare_micropolygons(gpu, scene, side);
         // What is drawn does not depend on the camera.
         let camera = &Camera::at(&scene.camera, 0.0);
         let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, display: shows.into() }, self.size);
@@ -119,6 +129,20 @@ impl Stage {
             self.views[side].push(ViewSet::new(gpu, &self.view_layout, field.addressing));
         }
         Ok(())
+    }
+
+    /// Makes the micropolygons that a side asks for, unless they are there; the first side drops those that it does not.
+    fn prepare_micropolygons(&mut self, gpu: &Gpu, scene: &Scene, side: usize) {
+        let plane = || (scene.plane_size_metres().map(|metres| metres as f32), scene.field.addressing);
+        let plan = Plan { triangles: scene.trace.mesh_triangles, bare_plane: self.mesh.is_none().then(plane) };
+        if scene.trace.technique != Technique::Mesh {
+            if side == 0 {
+                self.micropolygons = None;
+            }
+        } else if self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
+            let mesh = self.mesh.as_ref().map(|body| (body.mesh.vertices.as_slice(), body.mesh.indices.as_slice()));
+            self.micropolygons = Some(Micropolygons::new(gpu, plan, mesh.unwrap_or_default()));
+        }
     }
 
     fn build(&self, gpu: &Gpu, choice: Choice, geometry: Geometry, output: Output) -> Result<(), ShaderError> {
@@ -138,6 +162,9 @@ impl Stage {
         let view = View::new(scene, camera, time_seconds, image_size, display);
         let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: Choice::PLAIN, triangles: 0..1, view }];
         match &self.mesh {
+            None if choice.technique == Technique::Mesh => {
+                draws.push(Draw { geometry: Geometry::Micropolygons, choice, triangles: 0..2, view: View { planar: 2, ..view } });
+            }
             None => draws.push(Draw { geometry: Geometry::Plane, choice, triangles: 0..1, view }),
             Some(body) => {
                 let parts = body.mesh.parts.iter();
@@ -187,7 +214,11 @@ impl Stage {
         if let Some(Body { mesh, buffers }) = &self.mesh
             && mesh.skin.is_some()
         {
-            buffers.pose(gpu, &mesh.posed(time_seconds), &mesh.indices);
+            let vertices = mesh.posed(time_seconds);
+            buffers.pose(gpu, &vertices, &mesh.indices);
+            if let Some(micropolygons) = &self.micropolygons {
+                micropolygons.pose(gpu, (&vertices, &mesh.indices));
+            }
         }
     }
 
@@ -206,6 +237,13 @@ impl Stage {
                 Geometry::Facets(_) => {
                     pass.set_index_buffer(buffers.indices(), wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(3 * start..3 * end, 0, 0..1);
+                }
+                Geometry::Micropolygons => {
+                    // The plane alone goes on beyond its border: over the tiles around it, where the field wraps.
+                    let instances = if draw.view.planar == 2 && draw.view.wrap == 1 { 9 } else { 1 };
+                    if let Some(micropolygons) = &self.micropolygons {
+                        micropolygons.draw(pass, &micropolygons.of(&draw.triangles), instances);
+                    }
                 }
                 // Three tetrahedra of four sides.
                 Geometry::Shell => pass.draw(36 * start..36 * end, 0..1),
@@ -268,17 +306,19 @@ impl Stage {
     /// Bytes of GPU memory that its buffers take.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
-        self.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes()) + 4 * width * height
+        let micropolygons = self.micropolygons.as_ref().map_or(0, Micropolygons::memory_bytes);
+        self.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes()) + micropolygons + 4 * width * height
     }
 }
 
 /// The draws of one material of a mesh.
 fn mesh_draws(mesh: &Mesh, triangles: Range<u32>, view: View, seen: &Seen<'_>, choice: Choice) -> Vec<Draw> {
     let scene = seen.scene;
-    if scene.trace.shell {
+    let is_micro = choice.technique == Technique::Mesh;
+    if scene.trace.shell && !is_micro {
         return vec![Draw { geometry: Geometry::Shell, choice, triangles, view }];
     }
-    let geometry = Geometry::Facets(scene.trace.displaced_depth);
+    let geometry = if is_micro { Geometry::Micropolygons } else { Geometry::Facets(scene.trace.displaced_depth) };
     if !mesh.is_planar {
         return vec![Draw { geometry, choice, triangles, view }];
     }

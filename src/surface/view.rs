@@ -7,8 +7,9 @@ use crate::field::base;
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
-use super::Display;
+use super::level_of_detail::ViewDetail;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
+use super::{Display, micropolygon};
 
 /// A ball beside the relief. Twin of the WGSL struct in `shaders/common/view.wgsl`.
 #[repr(C)]
@@ -56,12 +57,19 @@ pub struct View {
     pub pom_samples_max: f32,
     pub shadow_samples: f32,
     pub shadow_strength: f32,
+    pub pom_counts: u32,
+    pub steep_layers: f32,
+    pub relief_linear_steps: f32,
+    pub relief_binary_steps: u32,
+    pub relief_depth_bias: u32,
+    pub pyramid_leaf: u32,
+    pub pad_trace: [u32; 2],
     pub u_world: [f32; 3],
     pub first_row: u32,
     pub v_world: [f32; 3],
     pub displaced_depth: u32,
     pub up_world: [f32; 3],
-    pub pad_up: u32,
+    pub mesh_quads: u32,
     pub origin_world: [f32; 3],
     pub pad_origin: u32,
     pub eye_world: [f32; 3],
@@ -85,8 +93,10 @@ pub struct View {
     pub gain: f32,
     pub background: u32,
     pub light_count: u32,
+    pub light_radius: f32,
+    pub area_samples: u32,
     pub level_cap: u32,
-    pub pad_lights: u32,
+    pub pad_lights: [u32; 3],
     pub lights: [ViewLight; LIGHTS_MAX],
     pub direction_x: LinearForm,
     pub direction_y: LinearForm,
@@ -97,6 +107,9 @@ pub struct View {
     pub forward_world: [f32; 3],
     pub pad_forward: u32,
     pub balls: [Ball; BALLS_MAX],
+    pub repeat: [f32; 2],
+    pub pad_repeat: [f32; 2],
+    pub detail: ViewDetail,
 }
 
 impl View {
@@ -133,7 +146,15 @@ impl View {
             pom_samples_max: scene.trace.pom_samples_max as f32,
             shadow_samples: scene.trace.shadow_samples as f32,
             shadow_strength: scene.trace.shadow_strength,
+            pom_counts: scene.trace.pom_counts as u32,
+            steep_layers: scene.trace.steep_layers as f32,
+            relief_linear_steps: scene.trace.relief_linear_steps as f32,
+            relief_binary_steps: scene.trace.relief_binary_steps,
+            relief_depth_bias: u32::from(scene.trace.relief_depth_bias),
+            pyramid_leaf: scene.trace.pyramid_leaf as u32,
+            pad_trace: [0; 2],
             displaced_depth: u32::from(scene.trace.displaced_depth),
+            mesh_quads: micropolygon::pieces(scene.trace.mesh_triangles, 2),
             eye_world: eye.as_vec3().to_array(),
             specular: scene.material.specular,
             light_world: light.as_vec3().to_array(),
@@ -154,6 +175,8 @@ impl View {
             background: scene.light.background as u32,
             light_count: all_lights.len() as u32,
             level_cap: display.level_cap,
+            light_radius: scene.light.half_angle_degrees.to_radians().tan(),
+            area_samples: scene.trace.area_samples,
             lights,
             // Validation refuses more balls than there is room for.
             ball_count: scene.balls.len() as u32,
@@ -165,6 +188,8 @@ impl View {
             near_metres: camera.near_metres as f32,
             forward_world: camera.forward().as_vec3().to_array(),
             balls,
+            repeat: scene.plane.repeat.map(|times| times as f32),
+            detail: ViewDetail::new(scene),
             ..Self::default()
         };
         view.over(camera, &target)
@@ -243,6 +268,8 @@ impl ViewSet {
             address_mode_v: address_mode,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
+            // Between levels as well as texels: what is read at a level of detail moves smoothly with it.
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
         let uniform = Uniform::new(gpu, "view");
