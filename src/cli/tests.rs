@@ -160,6 +160,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("depth", "0 -1 nan inf x 1e9"),
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
         ("gain", "0 -1 nan inf x 1e9"),
+        ("level-cap", "-1 1.5 32 x"),
         ("fov", "0 -45 180 nan inf x"),
         ("lod", "-1 17 nan on x"),
         ("frames", "0 -1 1.5 x 4294967296"),

@@ -50,6 +50,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/channels"
     "surface/facet"
     "surface/frame"
+    "surface/level_cap"
     "surface/level_of_detail"
     "surface/light_ggx"
     "surface/light_phong"

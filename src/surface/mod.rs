@@ -44,6 +44,8 @@ pub struct Choice {
     /// Whether the exact traversal runs beside the technique: what the view of errors shows. A part of its own, since an
     /// adapter that runs both sides of every branch would pay for it in every picture.
     pub with_truth: bool,
+    /// Whether the traversal ends at a level of the pyramid, in place of the technique.
+    pub caps_level: bool,
 }
 
 impl Choice {
@@ -52,7 +54,7 @@ impl Choice {
 
     /// A technique and a shadow, where nobody looks at colours.
     pub const fn tracing(technique: Technique, shadow: Shadow) -> Self {
-        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false }
+        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false, caps_level: false }
     }
 
     /// A scene's.
@@ -64,7 +66,7 @@ impl Choice {
     /// The same for a view of what it traces.
     #[must_use]
     pub const fn showing(self, shows: Shows) -> Self {
-        Self { with_truth: matches!(shows, Shows::Error), ..self }
+        Self { with_truth: matches!(shows, Shows::Error), caps_level: matches!(shows, Shows::LevelCap), ..self }
     }
 }
 
@@ -72,9 +74,9 @@ impl Choice {
 /// adapter does.
 pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let Choice { technique, shadow, albedo, shading, with_truth } = choice;
+    let Choice { technique, shadow, albedo, shading, with_truth, caps_level } = choice;
     let stems = [
-        technique.stem(),
+        if caps_level { "level_cap" } else { technique.stem() },
         shadow.stem(),
         "sky",
         "balls",

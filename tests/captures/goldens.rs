@@ -7,7 +7,7 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 12] = [
+const GOLDENS: [(&str, &[&str]); 14] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("relief", &["--scene", "relief"]),
@@ -20,6 +20,8 @@ const GOLDENS: [(&str, &[&str]); 12] = [
     ("cube", &["--scene", "cube"]),
     ("planet", &["--scene", "planet", "--field", "256x128"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
+    ("relief-ggx", &["--scene", "relief", "--shading", "ggx"]),
+    ("glass", &["--scene", "tests/goldens/glass.toml"]),
 ];
 
 fn golden(name: &str) -> PathBuf {

@@ -79,7 +79,7 @@ pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, Mod
     let mut gallery = Gallery {
         directory: directory.as_ref(),
         size: options.common.image_size,
-        gain: f64::from(options.common.display.gain()),
+        gain: options.common.display.gain(),
         truths: 0,
     };
     for &size in &plan.field_sizes {
