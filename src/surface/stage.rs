@@ -175,7 +175,11 @@ impl Stage {
                             (view.pom_samples_min, view.pom_samples_max) = (fewest as f32, most as f32);
                         }
                     }
-                    mesh_draws(&body.mesh, part.triangles.clone(), view, seen, choice)
+                    let mut draws = mesh_draws(&body.mesh, part.triangles.clone(), view, seen, choice);
+                    if choice.technique == Technique::Mesh {
+                        draws.push(Draw { geometry: Geometry::Walls, choice, triangles: part.triangles.clone(), view });
+                    }
+                    draws
                 }));
             }
         }
@@ -231,6 +235,11 @@ impl Stage {
                     let instances = if draw.view.planar == 2 && draw.view.wrap == 1 { 9 } else { 1 };
                     if let Some(micropolygons) = &self.micropolygons {
                         micropolygons.draw(pass, &micropolygons.of(&draw.triangles), instances);
+                    }
+                }
+                Geometry::Walls => {
+                    if let Some(micropolygons) = &self.micropolygons {
+                        micropolygons.draw(pass, &micropolygons.walls_of(&draw.triangles), 1);
                     }
                 }
                 // Three tetrahedra of four sides.
