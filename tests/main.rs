@@ -2,7 +2,8 @@
 //!
 //! - `house`, `shaders`: the house's rules, without a GPU.
 //! - `field`, `surface`: proofs of what the kernels compute, on the GPU, against their references in f64.
-//! - `modes`: the panel, driven without a GPU, and the program in a real window, where there is a display to open one on.
+//! - `modes`: the panel, driven without a GPU, the program in a real window, where there is a display to open one on, and
+//!   `compare`, whose tables are read back.
 //! - `captures`: what the program writes, read back from its files as a script outside would.
 //! - `fallbacks`: adapters that lack what WebGPU's baseline lacks.
 //! - `command_line`: exit codes, one sentence for an error, nothing left behind; the program runs as a process.

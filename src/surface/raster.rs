@@ -161,6 +161,9 @@ pub fn pipeline(
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &MicroVertex::ATTRIBUTES,
     })];
+    if geometry == Geometry::Shell {
+        constants.push(("SHELL_FLAT", shell::FLAT));
+    }
     let format = match output {
         Output::Radiance => Radiance::CONTRACT.format,
         Output::Channels(_) => CHANNEL_FORMAT,

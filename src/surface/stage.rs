@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::micropolygon::{Micropolygons, Plan};
 use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
 use super::ray_map::Target;
-use super::{Choice, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
+use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
 use crate::camera::Camera;
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Gpu, Readback, Recorder, ShaderError};
@@ -27,8 +27,8 @@ pub struct Stage {
     micropolygons: Option<Micropolygons>,
     /// The bindings of an empty mesh, for what has none.
     no_mesh: MeshBuffers,
-    /// One for each draw at most.
-    views: Vec<ViewSet>,
+    /// One for each draw at most, on each side of a divider.
+    views: [Vec<ViewSet>; 2],
     depth: wgpu::TextureView,
     size: [u32; 2],
 }
@@ -56,16 +56,16 @@ pub struct Seen<'a> {
     pub camera: &'a Camera,
     /// The time that it shows, seconds.
     pub time_seconds: f64,
-    /// What the picture shows.
-    pub shows: Shows,
+    /// What is shown of it: what is on the right of a divider is not for here.
+    pub display: Display,
 }
 
 impl Stage {
-    /// Whether a scene needs one: without, the plane alone is drawn, which antialiases its border.
+    /// Whether a scene without a mesh needs one: else the plane alone is drawn, which antialiases its border.
     pub fn is_needed(scene: &Scene) -> bool {
         let trace = &scene.trace;
         let is_rasterised = trace.shell || trace.displaced_depth || trace.technique == Technique::Mesh;
-        scene.mesh.is_some() || !scene.balls.is_empty() || is_rasterised
+        !scene.balls.is_empty() || is_rasterised
     }
 
     /// Makes one for pictures of `size` traced pixels; `mesh` is the scene's, or the plane where its shell is drawn.
@@ -82,7 +82,7 @@ impl Stage {
             mesh: None,
             micropolygons: None,
             no_mesh,
-            views: Vec::new(),
+            views: Default::default(),
             depth: depth_buffer(gpu, size),
             size,
         };
@@ -107,37 +107,41 @@ impl Stage {
         (self.depth, self.size) = (depth_buffer(gpu, size), size);
     }
 
+    /// Gives back the memory of micropolygons.
+    pub fn forget_micropolygons(&mut self) {
+        self.micropolygons = None;
+    }
+
     /// Forgets every pipeline: the device's shaders have changed.
     pub fn forget_pipelines(&mut self) {
         self.pipelines.get_mut().clear();
     }
 
-    /// Builds what a scene's picture needs and is not there yet.
+    /// Builds what a view of a scene needs and is not there yet, on the left or, `side` being 1, the right of a divider.
     ///
     /// # Errors
     ///
     /// A shader does not compile.
-    pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene) -> Result<(), ShaderError> {
+    pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene, shows: Shows, side: usize) -> Result<(), ShaderError> {
         self.prepare_micropolygons(gpu, scene);
         // What is drawn does not depend on the camera.
         let camera = &Camera::at(&scene.camera, 0.0);
-        let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, shows: Shows::Picture }, self.size);
+        let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, display: shows.into() }, self.size);
         for draw in &draws {
             self.build(gpu, draw.choice, draw.geometry, Output::Radiance)?;
         }
-        while self.views.len() < draws.len() {
-            self.views.push(ViewSet::new(gpu, &self.view_layout, field.addressing));
+        while self.views[side].len() < draws.len() {
+            self.views[side].push(ViewSet::new(gpu, &self.view_layout, field.addressing));
         }
         Ok(())
     }
 
-    /// Makes the micropolygons that a scene asks for, unless they are there; drops those that it does not.
+    /// Makes the micropolygons that a scene asks for, unless they are there.
     fn prepare_micropolygons(&mut self, gpu: &Gpu, scene: &Scene) {
         let plane = || (scene.plane_size_metres().map(|metres| metres as f32), scene.field.addressing);
         let plan = Plan { triangles: scene.trace.mesh_triangles, bare_plane: self.mesh.is_none().then(plane) };
-        if scene.trace.technique != Technique::Mesh {
-            self.micropolygons = None;
-        } else if self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
+        let is_asked = scene.trace.technique == Technique::Mesh;
+        if is_asked && self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
             let mesh = self.mesh.as_ref().map(|body| (body.mesh.vertices.as_slice(), body.mesh.indices.as_slice()));
             self.micropolygons = Some(Micropolygons::new(gpu, plan, mesh.unwrap_or_default()));
         }
@@ -155,9 +159,9 @@ impl Stage {
 
     /// Everything that is drawn, from back to front where that matters.
     fn draws(&self, seen: &Seen<'_>, image_size: [u32; 2]) -> Vec<Draw> {
-        let Seen { scene, camera, time_seconds, shows } = *seen;
-        let choice = Choice::of(scene);
-        let view = View::new(scene, camera, time_seconds, image_size, shows);
+        let Seen { scene, camera, time_seconds, display } = *seen;
+        let choice = Choice::of(scene).showing(display.shows);
+        let view = View::new(scene, camera, time_seconds, image_size, display);
         let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: Choice::PLAIN, triangles: 0..1, view }];
         match &self.mesh {
             None if choice.technique == Technique::Mesh => {
@@ -189,15 +193,25 @@ impl Stage {
         draws
     }
 
-    /// Records one render pass over the whole of `radiance`. The pipelines must have been prepared.
-    pub fn record(&self, recorder: &mut Recorder<'_>, seen: &Seen<'_>, radiance: &wgpu::TextureView) {
+    /// Records one render pass over these columns of `radiance`, under a name of its own; whoever begins at the first begins the
+    /// picture. The pipelines of this side must have been prepared.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &str,
+        side: usize,
+        seen: &Seen<'_>,
+        radiance: &wgpu::TextureView,
+        columns: Range<u32>,
+    ) {
         let draws = self.draws(seen, self.size);
-        for (draw, set) in draws.iter().zip(&self.views) {
+        for (draw, set) in draws.iter().zip(&self.views[side]) {
             set.uniform.write(recorder.gpu, &draw.view);
         }
         self.pose(recorder.gpu, seen.time_seconds);
-        recorder.render_with_depth("surface", radiance, &self.depth, |pass| {
-            self.draw(pass, &draws, &self.views, Output::Radiance);
+        recorder.render_onto(name, radiance, Some(&self.depth), columns.start > 0, |pass| {
+            pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, self.size[1]);
+            self.draw(pass, &draws, &self.views[side], Output::Radiance);
         });
     }
 

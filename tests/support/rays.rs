@@ -37,6 +37,8 @@ pub fn view(field: &HeightField) -> View {
         mesh_quads: 37,
         shadow_samples: 16.0,
         shadow_strength: 4.0,
+        light_radius: 0.05,
+        area_samples: 64,
         ..View::default()
     }
 }

@@ -66,7 +66,7 @@ fn numbers(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>, size: [u32; 2])
     let mut frame = Frame::new(gpu, &start, size, PICTURE_FORMAT).expect("the scene fits");
     let tick = Clock::new(None).advance(Pace::Fixed { dt_seconds: 1.0 / 60.0 });
     let (strokes, camera) = (Strokes::default(), Camera::at(&scene.camera, 0.0));
-    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
     let target = rilievo::modes::capture::Picture::new(gpu, size);
     let mut encoder = gpu.encoder("test");
     frame.record(gpu, &mut encoder, &input, Some(target.view())).expect("it is drawn");
