@@ -53,7 +53,7 @@ fn arguments_alone_exit_with_2() {
     for (arguments, part) in [
         (&["--sceen", "relief"][..], "--scene"),
         (&["capture"], "--out"),
-        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal, pom and exact?"),
+        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal"),
         (&["capture", "--out", "out", "--view", "stpes"], "did you mean `steps`"),
         (&["stress", "--split", "pom:soft"], "unknown shadow `soft`"),
         (&["capture", "--out", "out", "--shadow", "hrad"], "did you mean `hard`"),
@@ -100,7 +100,7 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
     fs::write(path.join("far.toml"), "version = 9\n").expect("the directory can be written");
     let before = names(path);
     for (arguments, part) in [
-        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall and relief?"),
+        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall, relief, sidewalk, fur and grass?"),
         (&["--scene", "missing.toml"], "no such file"),
         (&["--scene", "./"], "directory"),
         (&["--scene", "broken.toml"], "broken.toml, line 3: unknown field `courrant`"),

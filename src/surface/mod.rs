@@ -4,6 +4,7 @@ pub mod channels;
 pub mod choice;
 pub mod display;
 pub mod facet;
+pub mod level_of_detail;
 pub mod light_probe;
 pub mod micropolygon;
 pub mod probe;
@@ -93,9 +94,11 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "common/field",
         sampled,
         "surface/frame",
+        "surface/level_of_detail",
         "surface/ray_map",
         "surface/traversal",
         "surface/light_disc",
+        "surface/march",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -112,7 +115,8 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Water | Albedo::Glass => Vec::new(),
+        Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
+        Albedo::Plain | Albedo::Fur | Albedo::Water | Albedo::Glass => Vec::new(),
     }
 }
 

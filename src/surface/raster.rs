@@ -154,6 +154,9 @@ pub fn pipeline(
     if let Output::Channels(part) = output {
         constants.push(("CHANNEL_PART", f64::from(part)));
     }
+    if geometry == Geometry::Shell {
+        constants.push(("SHELL_FLAT", shell::FLAT));
+    }
     let is_clipped = matches!(geometry, Geometry::Plane | Geometry::Micropolygons);
     let blend = (output == Output::Radiance && is_clipped).then_some(wgpu::BlendState::ALPHA_BLENDING);
     let micro_vertices = [Some(wgpu::VertexBufferLayout {
@@ -161,9 +164,6 @@ pub fn pipeline(
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &MicroVertex::ATTRIBUTES,
     })];
-    if geometry == Geometry::Shell {
-        constants.push(("SHELL_FLAT", shell::FLAT));
-    }
     let format = match output {
         Output::Radiance => Radiance::CONTRACT.format,
         Output::Channels(_) => CHANNEL_FORMAT,

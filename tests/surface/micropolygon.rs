@@ -13,7 +13,7 @@ use rilievo::stroke::Strokes;
 use rilievo::surface::channels::Channel;
 use rilievo::surface::micropolygon::{MicroVertex, bare_plane, borders, indices, pieces, vertices};
 use rilievo::surface::ray_map::{Placement, Target};
-use rilievo::surface::{Channels, Choice, Shadow, Shows, Technique};
+use rilievo::surface::{Channels, Choice, Display, Shadow, Technique};
 
 use crate::support::fields::{ADDRESSINGS, Kind};
 use crate::support::gpu::gpu;
@@ -66,7 +66,7 @@ fn numbers(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>, size: [u32; 2])
     let mut frame = Frame::new(gpu, &start, size, PICTURE_FORMAT).expect("the scene fits");
     let tick = Clock::new(None).advance(Pace::Fixed { dt_seconds: 1.0 / 60.0 });
     let (strokes, camera) = (Strokes::default(), Camera::at(&scene.camera, 0.0));
-    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
+    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Display::default() };
     let target = rilievo::modes::capture::Picture::new(gpu, size);
     let mut encoder = gpu.encoder("test");
     frame.record(gpu, &mut encoder, &input, Some(target.view())).expect("it is drawn");

@@ -145,7 +145,7 @@ impl Plan {
             places => places.iter().map(placed).collect(),
         };
         // Among several shadows the one that makes no compromise is the truth; one alone only asks which technique shows it.
-        let truth_shadow = options.truth_shadow.or((shadows.len() > 1).then_some(Shadow::Hard));
+        let truth_shadow = options.truth_shadow.or((shadows.len() > 1).then_some(Shadow::Area));
         let variants = Variant::all(&options.techniques(), &shadows, &options.sweep_samples());
         Self { field_sizes, cameras, variants, truth: options.truth, truth_shadow }
     }
