@@ -20,7 +20,7 @@ use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, View, ViewSet, view};
+use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -331,12 +331,20 @@ impl Frame {
         } else {
             self.stage = None;
         }
+        if let Some(stage) = self.stage.as_mut().filter(|_| self.scene.trace.technique != Technique::Mesh) {
+            stage.forget_micropolygons();
+        }
         self.build_sides(gpu, &Display::default())
     }
 
     /// Builds what each side of what is shown needs and is not there yet.
     fn build_sides(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
-        for (index, side) in self.sides(display).iter().enumerate() {
+        let sides = self.sides(display);
+        // One side may need a stage where the scene itself does not.
+        if self.stage.is_none() && sides.iter().any(|side| Stage::is_needed(&side.scene)) {
+            self.set_stage(gpu);
+        }
+        for (index, side) in sides.iter().enumerate() {
             if let Some(stage) = &mut self.stage {
                 stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
                 continue;

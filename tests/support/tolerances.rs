@@ -226,6 +226,7 @@ pub const CONE_RMS: f64 = 0.03;
 
 /// Share of receivers to which a light of a milliradian is a point: the project's bar.
 pub const CONE_POINT_SHARE: f64 = 0.999;
+
 /// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
 /// MikkTSpace.
 pub const MESH_FRAME: f64 = 1e-5;
