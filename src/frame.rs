@@ -1,6 +1,7 @@
 //! One frame: from what was asked to radiance, top to bottom. [`Frame::record`] is the table of contents.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::camera::Camera;
 use crate::clock::Tick;
@@ -18,7 +19,7 @@ use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Choice, Seen, Shows, Stage, Surface, View, ViewSet, view};
+use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,14 +62,14 @@ pub struct FrameInput<'a> {
     pub strokes: &'a Strokes,
     /// Where it is seen from.
     pub camera: &'a Camera,
-    /// What the picture shows.
-    pub shows: Shows,
+    /// What is shown of it: the picture or a view, and what is beside it.
+    pub display: Display,
 }
 
 impl<'a> FrameInput<'a> {
     /// What is seen of a scene.
     pub fn seen(&self, scene: &'a Scene) -> Seen<'a> {
-        Seen { scene, camera: self.camera, time_seconds: self.tick.time_seconds, shows: self.shows }
+        Seen { scene, camera: self.camera, time_seconds: self.tick.time_seconds, display: self.display }
     }
 }
 
@@ -108,6 +109,8 @@ pub struct Frame {
     scene: Scene,
     view_layout: BindingLayout,
     view_set: ViewSet,
+    /// The view of the right side, where the picture is split.
+    right_view_set: ViewSet,
     waves: Option<(Waves, WaveSet)>,
     stamps: Stamps,
     stamp_set: StampSet,
@@ -122,6 +125,8 @@ pub struct Frame {
     /// What is seen beside and instead of the bare plane; none where the plane is all.
     stage: Option<Stage>,
     mesh: Option<Mesh>,
+    /// The display whose pipelines were built last.
+    built_for: Option<Display>,
     present: Present,
     radiance: Texture<Radiance>,
     present_set: PresentSet,
@@ -154,7 +159,7 @@ impl Frame {
             field.albedo_map = albedo_image::upload(gpu, colours);
         }
         let view_layout = view::layout(gpu);
-        let view_set = ViewSet::new(gpu, &view_layout, field.addressing);
+        let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
         let waves = match &scene.wave {
             Some(wave) => {
                 let waves = Waves::new(gpu)?;
@@ -175,6 +180,7 @@ impl Frame {
             scene,
             view_layout,
             view_set,
+            right_view_set,
             waves,
             stamps,
             stamp_set,
@@ -187,6 +193,7 @@ impl Frame {
             surfaces: HashMap::new(),
             stage: None,
             mesh: start.mesh.clone(),
+            built_for: None,
             present,
             radiance,
             present_set,
@@ -215,9 +222,14 @@ impl Frame {
     ///
     /// A shader does not compile: the frame goes on with the passes it had.
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        let choice = self.choice();
         let _ = gpu.take_error();
-        let surface = Surface::new(gpu, &self.view_layout, choice)?;
+        let display = self.built_for.unwrap_or_default();
+        let mut surfaces = HashMap::new();
+        for choice in self.sides(&display).iter().map(Side::choice) {
+            let surface = Surface::new(gpu, &self.view_layout, choice)?;
+            let set = surface.bind(gpu, &self.field);
+            surfaces.insert(choice, (surface, set));
+        }
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
@@ -227,11 +239,11 @@ impl Frame {
         }
         if let Some(stage) = &mut self.stage {
             stage.forget_pipelines();
-            stage.prepare(gpu, &self.field, &self.scene)?;
+            stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
         }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
-        let set = surface.bind(gpu, &self.field);
-        self.surfaces = HashMap::from([(choice, (surface, set))]);
+        self.built_for = None;
+        self.surfaces = surfaces;
         (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
@@ -289,25 +301,54 @@ impl Frame {
         }
     }
 
-    fn choice(&self) -> Choice {
-        Choice::of(&self.scene)
+    /// What is seen of the scene on each side of what is shown.
+    fn sides(&self, display: &Display) -> Vec<Side> {
+        let [width, _] = traced_size(&self.scene, self.image_size);
+        let side = |name, scene, shows, columns| Side { name, scene, display: Display { shows, ..*display }, columns };
+        match (display.divider(self.image_size[0], self.scene.trace.supersampling), &display.split) {
+            // Two looks at the same instant of the same field, each with a time of its own.
+            (Some(column), Some(split)) => vec![
+                side(SIDES[0], self.scene.clone(), display.shows, 0..column),
+                side(SIDES[1], split.scene(&self.scene), split.shows, column..width),
+            ],
+            _ => vec![side("surface", self.scene.clone(), display.shows, 0..width)],
+        }
     }
 
+    /// Builds what a scene needs, and puts its mesh on the stage.
     fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        if Stage::is_needed(&self.scene) {
-            return self.build_stage(gpu);
+        if self.mesh.is_some() || Stage::is_needed(&self.scene) {
+            self.set_stage(gpu);
+        } else {
+            self.stage = None;
         }
-        self.stage = None;
-        let choice = self.choice();
-        if !self.surfaces.contains_key(&choice) {
-            let surface = Surface::new(gpu, &self.view_layout, choice)?;
-            let set = surface.bind(gpu, &self.field);
-            self.surfaces.insert(choice, (surface, set));
+        self.build_sides(gpu, &Display::default())
+    }
+
+    /// Builds what each side of what is shown needs and is not there yet.
+    fn build_sides(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        for (index, side) in self.sides(display).iter().enumerate() {
+            if let Some(stage) = &mut self.stage {
+                stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
+                continue;
+            }
+            let choice = side.choice();
+            if !self.surfaces.contains_key(&choice) {
+                let surface = Surface::new(gpu, &self.view_layout, choice)?;
+                let set = surface.bind(gpu, &self.field);
+                self.surfaces.insert(choice, (surface, set));
+            }
         }
+        self.built_for = Some(*display);
         Ok(())
     }
 
-    fn build_stage(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+    /// The same, unless it was the last that was built.
+    fn build_for(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        if self.built_for != Some(*display) { self.build_sides(gpu, display) } else { Ok(()) }
+    }
+
+    fn set_stage(&mut self, gpu: &Gpu) {
         let size = traced_size(&self.scene, self.image_size);
         let mesh = self.mesh.clone().or_else(|| {
             let plane = || Shape::Plane.mesh(self.scene.plane_size_metres().map(|metres| metres as f32));
@@ -317,10 +358,6 @@ impl Frame {
             Some(stage) => stage.set_mesh(gpu, mesh),
             None => self.stage = Some(Stage::new(gpu, &self.field, mesh, size)),
         }
-        if let Some(stage) = &mut self.stage {
-            stage.prepare(gpu, &self.field, &self.scene)?;
-        }
-        Ok(())
     }
 
     /// The stage on which the scene is seen, where it needs one.
@@ -348,7 +385,7 @@ impl Frame {
     ///
     /// # Errors
     ///
-    /// The strokes are too many for one frame on this adapter.
+    /// The strokes are too many for one frame on this adapter, or a shader that the display asks for does not compile.
     pub fn record(
         &mut self,
         gpu: &Gpu,
@@ -372,6 +409,7 @@ impl Frame {
             self.dirty.add(region, self.field.size);
         }
         let Some(target) = target else { return Ok(()) };
+        self.build_for(gpu, &input.display)?;
         // Derive what depends on the layers, where they changed.
         let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
         self.traffic.derived_texels = changed.iter().map(Region::area).sum();
@@ -392,16 +430,22 @@ impl Frame {
     }
 
     /// Shows the field as it stands once more, in a target of another format, and leaves everything as it is.
+    ///
+    /// # Errors
+    ///
+    /// A shader that the display asks for does not compile.
     pub fn show_with(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         present: &Present,
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
-    ) {
+    ) -> Result<(), ShaderError> {
+        self.build_for(gpu, &input.display)?;
         let set = present.bind(gpu, &self.radiance.view);
         self.show(&mut Recorder { gpu, encoder, timer: &self.timer }, (present, &set), input, target);
+        Ok(())
     }
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
@@ -430,17 +474,21 @@ impl Frame {
         target: &wgpu::TextureView,
     ) {
         let traced = traced_size(&self.scene, self.image_size);
-        if let Some(stage) = &self.stage {
-            stage.record(recorder, &input.seen(&self.scene), &self.radiance.view);
-        } else if let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) {
-            let view = View::new(&self.scene, input.camera, input.tick.time_seconds, traced, input.shows);
-            self.view_set.uniform.write(recorder.gpu, &view);
-            surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
-        } else {
-            unreachable!("every change of the choice builds its surface or its stage first")
+        let views = [&self.view_set, &self.right_view_set];
+        for (index, side) in self.sides(&input.display).into_iter().enumerate() {
+            let seen = Seen { display: side.display, ..input.seen(&side.scene) };
+            if let Some(stage) = &self.stage {
+                stage.record(recorder, side.name, index, &seen, &self.radiance.view, side.columns);
+            } else if let Some((surface, surface_set)) = self.surfaces.get(&side.choice()) {
+                let view = View::new(&side.scene, input.camera, input.tick.time_seconds, traced, side.display);
+                views[index].uniform.write(recorder.gpu, &view);
+                surface.record(recorder, side.name, views[index], surface_set, &self.radiance.view, side.columns);
+            } else {
+                unreachable!("whoever records builds the surfaces of what it shows first")
+            }
         }
-        let tone_map = input.shows == Shows::Picture;
-        present.record(recorder, present_set, self.scene.trace.supersampling, tone_map, target);
+        let supersampling = self.scene.trace.supersampling;
+        present.record(recorder, present_set, supersampling, &input.display, self.image_size[0], target);
     }
 
     /// Bytes of GPU memory of every texture.
@@ -471,6 +519,24 @@ impl Frame {
         traced[0] * traced[1] * (4.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
     }
 }
+
+/// One side of what is shown: all of it, where there is no divider.
+struct Side {
+    name: &'static str,
+    scene: Scene,
+    display: Display,
+    /// Of the traced picture.
+    columns: Range<u32>,
+}
+
+impl Side {
+    fn choice(&self) -> Choice {
+        Choice::of(&self.scene).showing(self.display.shows)
+    }
+}
+
+/// What the surface pass is called on each side of a divider.
+pub const SIDES: [&str; 2] = ["surface, left", "surface, right"];
 
 /// Traced pixels of a picture of `image_size`.
 fn traced_size(scene: &Scene, image_size: [u32; 2]) -> [u32; 2] {

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod framing;
+mod lights;
 mod text;
 mod validate;
 
@@ -13,9 +14,10 @@ use std::path::PathBuf;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::surface::{Albedo, Shadow, Technique};
+use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
@@ -58,6 +60,9 @@ pub struct Scene {
     /// The light.
     #[serde(default)]
     pub light: Light,
+    /// Other lights, three at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<DirectionalLight>,
     /// What the surface is made of.
     #[serde(default)]
     pub material: Material,
@@ -232,11 +237,15 @@ pub struct Trace {
     pub pom_samples_min: u32,
     /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
-    /// Samples of `pom-soft` along the light ray.
+    /// About how many triangles `mesh` has.
+    pub mesh_triangles: u32,
+    /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
     pub shadow_samples: u32,
     /// Strength of `pom-soft`: how fast a blocker darkens.
     pub shadow_strength: f32,
-    /// Nodes that `exact` and `hard` may visit before they give up and say so.
+    /// Points of the light's disc to which `area` sends a ray each.
+    pub area_samples: u32,
+    /// Nodes that one ray of `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
@@ -254,6 +263,8 @@ pub struct Light {
     pub azimuth_degrees: f32,
     /// Direction toward the light: degrees above the plane.
     pub elevation_degrees: f32,
+    /// Half the angle that its disc spans, degrees: how soft `cone` and `area` shadows are. The sun's is 0.27.
+    pub half_angle_degrees: f32,
     /// Its colour, linear.
     #[serde(deserialize_with = "exactly")]
     pub colour: [f32; 3],
@@ -267,6 +278,10 @@ pub struct Light {
     pub ground: [f32; 3],
     /// Degrees a second that the light travels round the vertical.
     pub turn_degrees_per_second: f32,
+    /// Whether the relief hides it from itself.
+    pub casts_shadow: bool,
+    /// What is behind everything.
+    pub background: Background,
 }
 
 /// What the surface is made of.
@@ -280,10 +295,20 @@ pub struct Material {
     /// Tint of the albedo, linear.
     #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
-    /// Strength of the highlight, 0 to 1.
+    /// What light does to it.
+    pub model: Shading,
+    /// Strength of the highlight, 0 to 1; of `ggx` ½ is the 4 % of most dielectrics.
     pub specular: f32,
-    /// Exponent of the highlight (Blinn–Phong).
+    /// Exponent of the highlight of `phong`.
     pub shininess: f32,
+    /// How rough it is to `ggx`, 0 a mirror, 1 matt.
+    pub roughness: f32,
+    /// How metallic it is to `ggx`, 0 to 1.
+    pub metallic: f32,
+    /// How much of the sky it mirrors, of what Fresnel allows, 0 to 1.
+    pub reflection: f32,
+    /// Index of refraction, where it is transparent.
+    pub refractive_index: f32,
 }
 
 /// Where the surface is seen from.
@@ -335,6 +360,7 @@ impl Default for Scene {
             shots: None,
             trace: Trace::default(),
             light: Light::default(),
+            lights: Vec::new(),
             material: Material::default(),
             mesh: None,
             balls: Vec::new(),
@@ -395,8 +421,10 @@ impl Default for Trace {
             shadow: Shadow::Hard,
             pom_samples_min: 8,
             pom_samples_max: 50,
+            mesh_triangles: 131_072,
             shadow_samples: 16,
             shadow_strength: 4.0,
+            area_samples: 64,
             step_cap: 4096,
             supersampling: 1,
             displaced_depth: false,
@@ -410,18 +438,32 @@ impl Default for Light {
         Self {
             azimuth_degrees: 215.0,
             elevation_degrees: 40.0,
+            half_angle_degrees: 1.5,
             colour: [1.0, 0.95, 0.88],
             intensity: 1.35,
             sky: [0.30, 0.37, 0.47],
             ground: [0.13, 0.10, 0.08],
             turn_degrees_per_second: 0.0,
+            casts_shadow: true,
+            background: Background::Studio,
         }
     }
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { albedo: Albedo::Plain, image: None, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
+        Self {
+            albedo: Albedo::Plain,
+            image: None,
+            tint: [1.0, 1.0, 1.0],
+            model: Shading::Phong,
+            specular: 0.2,
+            shininess: 32.0,
+            roughness: 0.5,
+            metallic: 0.0,
+            reflection: 0.0,
+            refractive_index: 1.5,
+        }
     }
 }
 

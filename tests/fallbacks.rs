@@ -34,7 +34,7 @@ fn pom_channels(gpu: &Gpu) -> (Vec<Channel>, bool) {
     let pass = Channels::new(gpu, Choice::of(&scene)).expect("its shaders compile");
     let camera = Camera::at(&scene.camera, 0.0);
     let (tick, strokes) = (Tick::default(), Strokes::default());
-    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
     let mut encoder = gpu.encoder("fallback");
     frame.record(gpu, &mut encoder, &input, Some(picture.view())).expect("there are no strokes");
     frame.finish(gpu, encoder);

@@ -53,14 +53,27 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/albedo_planet", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_terrain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_water", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    ("surface/ball", &["src", "reference", "tests"], "draws what surface/balls proves"),
+    ("surface/balls", &["src"], "a ball is data of the view: src/surface/view.rs"),
+    ("surface/channel", &["src", "reference", "tests"], "a struct and its parts: its twin is the channels'"),
+    ("surface/facet", &["reference"], "a box is held against the plane's reference"),
+    ("surface/plane", &["src", "reference", "tests"], "calls what others prove; the balls' tests see it"),
+    ("surface/raster", &["reference", "tests"], "what the drawn geometries share; their tests see it"),
     (
         "surface/frame",
         &["src", "reference", "tests"],
         "an affine map and its inverse: the captures' proof reads positions through it",
     ),
+    ("surface/albedo_glass", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    ("surface/light_probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),
     ("surface/matter", &["src", "reference", "tests"], "what albedos share"),
     ("surface/ray", &["src", "reference", "tests"], "two structs: their twins are the probe's"),
-    ("surface/shade", &["src", "reference", "tests"], "a light model without free choices: the goldens hold it"),
+    ("surface/shade", &["src", "reference", "tests"], "a sum of what others prove: the goldens hold it"),
+    ("surface/transparent", &["src", "reference", "tests"], "what albedos share: the goldens hold it"),
+    ("surface/truth_exact", &["src", "reference", "tests"], "calls what others prove; the captures' proof of views reads it"),
+    ("surface/truth_none", &["src", "reference", "tests"], "nothing"),
+    ("surface/views", &["src", "reference", "tests"], "numbers as colours: the captures' proof of views reads them"),
+    ("surface/micropolygon", &["reference"], "over a plane its specification is reference/trace_mesh.rs"),
     ("surface/surface", &["reference", "tests"], "calls what others prove; the goldens hold it"),
     ("surface/channels", &["reference", "tests"], "calls what others prove; the captures' proof reads it"),
     ("surface/probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),
@@ -68,7 +81,17 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
 
 /// Techniques and shadows are one WGSL file each and share the passes that run them: they have no Rust of their own.
 fn needs_rust(part: &str) -> bool {
-    !["surface/trace_", "surface/shadow_", "surface/traversal"].iter().any(|prefix| part.starts_with(prefix))
+    ![
+        "surface/trace_",
+        "surface/shadow_",
+        "surface/traversal",
+        "surface/light_disc",
+        "surface/light_ggx",
+        "surface/light_phong",
+        "surface/sky",
+    ]
+    .iter()
+    .any(|prefix| part.starts_with(prefix))
 }
 
 #[test]

@@ -10,14 +10,15 @@ use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
-use rilievo::present::PresentParams;
+use rilievo::present::{PresentParams, PresentSide};
 use rilievo::surface::channels::Channel;
+use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::raster::{Geometry, RasterVertex};
 use rilievo::surface::ray_map::LinearForm;
 use rilievo::surface::shell::ShellTriangle;
-use rilievo::surface::view::Ball;
-use rilievo::surface::{self, Albedo, Choice, Shadow, Shows, Technique, View};
+use rilievo::surface::view::{Ball, ViewLight};
+use rilievo::surface::{self, Albedo, Choice, Shading, Shadow, Shows, Technique, View};
 use wgpu::naga;
 
 /// Every composition that the program can ask for.
@@ -28,22 +29,28 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
         &["field/wave"],
-        &["present"],
+        &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
-    for filters in [false, true] {
-        for &technique in Technique::ALL {
-            for &shadow in Shadow::ALL {
-                for &albedo in Albedo::ALL {
-                    let choice = Choice { technique, shadow, albedo };
-                    for entry in ["surface", "channels", "probe"] {
-                        all.push(surface::parts(filters, choice, &[entry]));
-                    }
-                    for geometry in Geometry::ALL {
-                        all.push(surface::parts(filters, choice, geometry.stems()));
-                    }
-                }
+    // Parts meet only through the functions that they share by name: each with each of another kind, not all with all.
+    let plain = Choice::PLAIN;
+    let techniques = Technique::ALL.iter().map(|&technique| Choice { technique, ..plain });
+    let shadows = Shadow::ALL.iter().map(|&shadow| Choice { technique: Technique::Exact, shadow, ..plain });
+    let albedos = Albedo::ALL.iter().map(|&albedo| Choice { shadow: Shadow::Hard, albedo, ..plain });
+    for choice in techniques.chain(shadows).chain(albedos) {
+        for filters in [false, true] {
+            for entry in ["surface", "channels", "probe"] {
+                all.push(surface::parts(filters, choice, &[entry]));
             }
+        }
+        for geometry in Geometry::ALL {
+            all.push(surface::parts(true, choice, geometry.stems()));
+        }
+    }
+    for &shading in Shading::ALL {
+        all.push(surface::parts(true, Choice { shading, ..plain }, &["light_probe"]));
+        for with_truth in [false, true] {
+            all.push(surface::parts(true, Choice { shading, with_truth, ..plain }, &["surface"]));
         }
     }
     all
@@ -131,6 +138,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 v_world,
                 displaced_depth,
                 up_world,
+                mesh_quads,
                 origin_world,
                 eye_world,
                 specular,
@@ -143,9 +151,19 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 ground,
                 shows,
                 tint,
+                roughness,
                 image_size,
                 planar,
                 ball_count,
+                metallic,
+                reflection,
+                index,
+                gain,
+                background,
+                light_count,
+                light_radius,
+                area_samples,
+                lights,
                 direction_x,
                 direction_y,
                 direction_z,
@@ -159,11 +177,15 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Ball", layout!(Ball { centre, radius, colour })),
         ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
         ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
+        ("ViewLight", layout!(ViewLight { toward, casts_shadow, radiance })),
+        ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
+        ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
-        ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
+        ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
+        ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
@@ -241,7 +263,8 @@ fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() 
     let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
-    for (name, number) in shown.chain(became) {
+    let tops = [("VIEWS_STEPS", Shows::STEPS_TOP), ("VIEWS_LEVELS", Shows::LEVELS_TOP)].map(|(name, top)| (name.to_owned(), top));
+    for (name, number) in shown.chain(became).chain(tops) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
     }
 }

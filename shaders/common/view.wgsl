@@ -7,6 +7,13 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// A light without extent, infinitely far away.
+struct ViewLight {
+    toward: vec3f,      // unit vector toward it, world
+    casts_shadow: u32,  // 1 where the relief hides it from itself
+    radiance: vec3f,    // that a white surface facing it has
+}
+
 // A ball beside the relief.
 struct Ball {
     centre: vec3f,  // world, metres
@@ -41,6 +48,7 @@ struct View {
     v_world: vec3f,
     displaced_depth: u32,        // 1 where the depth of a pixel is that of the relief, 0 where it is that of the polygon
     up_world: vec3f,
+    mesh_quads: u32,             // of the micropolygon mesh along either side of a tile
     origin_world: vec3f,
 
     eye_world: vec3f,
@@ -54,10 +62,22 @@ struct View {
     ground: vec3f,               // radiance from below
     shows: u32,                  // what the picture shows: see surface/shade.wgsl
     tint: vec3f,
+    roughness: f32,              // 0 a mirror, 1 matt
 
     image_size: vec2u,           // of the traced picture, pixels
-    planar: u32,                 // 1 where a mesh's facets take their rays from the forms above
+    // 1 where what is drawn takes its rays from the forms above, 2 where it is the plane alone, clipped to its border, 0 where it
+    // takes them from each point's tangent space.
+    planar: u32,
     ball_count: u32,
+    metallic: f32,               // 0 a dielectric, 1 a metal
+    reflection: f32,             // how much of its surroundings the surface mirrors
+    index: f32,                  // of refraction, where the surface is transparent
+    gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
+    background: u32,             // what is behind everything: see surface/sky.wgsl
+    light_count: u32,
+    light_radius: f32,           // tangent of half the angle that the light's disc spans
+    area_samples: u32,           // points of the light's disc
+    lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
 
     // The pixel's direction in the world, with unit length along the view axis.
     direction_x: LinearForm,

@@ -1,6 +1,6 @@
 // Balls: other objects than the relief, whose shadows fall upon it and whose images it reflects ([POM] fig. 13).
 //
-// Specification: src/reference/balls.rs. Composed after common/view.wgsl.
+// Specification: src/reference/balls.rs. Composed after common/view.wgsl and surface/sky.wgsl.
 
 // Where a ray first meets a ball's surface from outside, in units of its direction; −1 where it does not. The half chord comes from
 // the closest point, not from the difference of squared distances, which would cancel far away.
@@ -31,11 +31,14 @@ fn balls_visibility(position: vec3f, toward_light: vec3f) -> f32 {
 // Radiance of a ball at a point of its surface.
 fn ball_radiance(ball: Ball, position: vec3f, toward_eye: vec3f) -> vec3f {
     let normal = (position - ball.centre) / ball.radius;
-    let halfway = normalize(toward_eye + view.light_world);
-    let highlight = 1.6 * pow(max(dot(normal, halfway), 0.0), 90.0);
-    let ambient = mix(view.ground, view.sky, 0.5 + 0.5 * normal.y);
-    let direct = view.light_radiance * max(dot(normal, view.light_world), 0.0);
-    return ball.colour * (ambient + direct) + highlight * view.light_radiance * step(0.0, dot(normal, view.light_world));
+    var radiance = ball.colour * sky_mean(normal);
+    for (var i = 0u; i < view.light_count; i++) {
+        let source = view_buffer.lights[i];
+        let halfway = normalize(toward_eye + source.toward);
+        let highlight = 1.6 * pow(max(dot(normal, halfway), 0.0), 90.0) * step(0.0, dot(normal, source.toward));
+        radiance += source.radiance * (ball.colour * max(dot(normal, source.toward), 0.0) + highlight);
+    }
+    return radiance;
 }
 
 // What a glossy surface mirrors of the balls, by Schlick's Fresnel term for a dielectric, scaled by the strength of its highlight.

@@ -52,6 +52,16 @@ fn frame_normal(lattice: vec2f) -> vec3f {
     return normalize(frame.normal + frame.normal_per_u * cells.x + frame.normal_per_v * cells.y);
 }
 
+// The unit vector out of the reference surface by the frame alone, world.
+fn frame_up() -> vec3f {
+    return normalize(frame.per_height);
+}
+
+// A world displacement as cells along u, cells along v, heights.
+fn field_displacement(world: vec3f) -> vec3f {
+    return vec3f(dot(frame.per_u, world), dot(frame.per_v, world), dot(frame.per_height, world));
+}
+
 // A world direction above the tangent plane of a smooth reference surface as cells along u, cells along v, heights.
 fn field_direction(world: vec3f, normal: vec3f) -> vec3f {
     let out = dot(world, normal);

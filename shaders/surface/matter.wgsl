@@ -15,6 +15,9 @@ struct Matter {
     specular: f32,    // strength of the highlight
     shininess: f32,   // its exponent
     glow: vec3f,      // radiance besides what the light model adds: reflection, what shows through
+    roughness: f32,   // 0 a mirror, 1 matt: GGX's α is its square
+    metallic: f32,    // 0 a dielectric, 1 a metal
+    reflection: f32,  // how much of its surroundings it mirrors, of what Fresnel allows
 }
 
 // What stamps left at a lattice position: soot, bare, post, 0, each 0 to 1, bilinear.
@@ -40,5 +43,9 @@ fn plane_metres(lattice: vec2f) -> vec2f {
 // The scene's material with the given colour, blackened by soot.
 fn sooty(colour: vec3f, soot: f32) -> Matter {
     let left = 1.0 - soot;
-    return Matter(colour * view.tint * mix(0.08, 1.0, left * left), view.specular * left, view.shininess, vec3f(0.0));
+    let albedo = colour * view.tint * mix(0.08, 1.0, left * left);
+    let roughness = mix(1.0, view.roughness, left);
+    return Matter(
+        albedo, view.specular * left, view.shininess, vec3f(0.0), roughness, view.metallic * left, view.reflection * left,
+    );
 }

@@ -51,3 +51,6 @@ struct Hit {
     steps: u32,     // height samples or nodes visited, a leaf counts one
     status: u32,    // HIT, MISS or CAPPED
 }
+
+// The level of the pyramid at which the last trace found the surface: 0 is the surface itself.
+var<private> hit_level: i32;

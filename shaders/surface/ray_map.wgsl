@@ -30,6 +30,16 @@ fn pixel_ray(position: vec2f) -> PixelRay {
     return PixelRay(view_ray(lattice, travel, vec2i(cell)), cell + lattice, denominator);
 }
 
+// The unit direction into which a point of the picture looks, world.
+fn pixel_direction(position: vec2f) -> vec3f {
+    let pixel = vec3f(position, 1.0);
+    return normalize(vec3f(
+        ray_map_evaluate(view.direction_x, pixel),
+        ray_map_evaluate(view.direction_y, pixel),
+        ray_map_evaluate(view.direction_z, pixel),
+    ));
+}
+
 // Whether the pixel looks down upon the plane's own plane, beyond the near distance.
 fn ray_map_looks_down(denominator: f32) -> bool {
     return denominator > 0.0 && denominator < view.nearest;

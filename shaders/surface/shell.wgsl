@@ -26,6 +26,9 @@ struct ShellVaryings {
     @location(0) @interpolate(flat) piece: u32,
 }
 
+// A tetrahedron with less volume than this share of the product of its edges is flat.
+override SHELL_FLAT: f32;
+
 // One tetrahedron: its corners, their heights, and their lattice positions counted from `cell`.
 struct ShellPiece {
     corners: array<vec3f, 4>,
@@ -90,8 +93,13 @@ fn shell_vertex(@builtin(vertex_index) index: u32) -> ShellVaryings {
         tetrahedron.corners[2] - tetrahedron.corners[0],
         tetrahedron.corners[3] - tetrahedron.corners[0],
     );
-    // The sides above wind outward where the volume is positive.
-    let turned = determinant(edges) < 0.0;
+    // The sides above wind outward where the volume is positive. A flat tetrahedron, as where the ways inward of two edges end in the
+    // same place, holds nothing and has no frame: it is not drawn.
+    let volume = determinant(edges);
+    if abs(volume) < SHELL_FLAT * length(edges[0]) * length(edges[1]) * length(edges[2]) {
+        return ShellVaryings(vec4f(0.0, 0.0, 0.0, 1.0), piece);
+    }
+    let turned = volume < 0.0;
     var corner = index % 3u;
     if turned && corner != 0u {
         corner = 3u - corner;
@@ -200,7 +208,7 @@ fn shell(varyings: ShellVaryings) -> ColourAndDepth {
     if way.is_empty || hit.status == MISS {
         discard;
     }
-    let shaded = shade_hit(hit);
+    let shaded = shade_hit(way.ray, hit);
     return ColourAndDepth(vec4f(shown(shaded), 1.0), raster_depth(world_of(shaded.hit.lattice, shaded.hit.height)));
 }
 
@@ -212,6 +220,6 @@ fn shell_channel(varyings: ShellVaryings) -> ColourAndDepth {
     if way.is_empty || hit.status == MISS {
         discard;
     }
-    let shaded = shade_hit(hit);
+    let shaded = shade_hit(way.ray, hit);
     return ColourAndDepth(channel_part(channel_of(shaded)), raster_depth(world_of(shaded.hit.lattice, shaded.hit.height)));
 }

@@ -11,18 +11,10 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(corner, 0.0, 1.0);
 }
 
-// A dim studio, brighter behind the middle of the picture.
-fn background(position: vec2f) -> vec3f {
-    let size = vec2f(view.image_size);
-    let from_middle = (position - 0.5 * size) / size.y;
-    let falloff = exp(-1.6 * dot(from_middle, from_middle));
-    return mix(vec3f(0.010, 0.012, 0.016), vec3f(0.060, 0.068, 0.080), falloff);
-}
-
 @fragment
 fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
     view = view_buffer;
-    let behind = background(position.xy);
+    let behind = background(position.xy, pixel_direction(position.xy));
     let pixel = pixel_ray(position.xy);
     let coverage = plane_coverage(pixel);
     if coverage == 0.0 {
@@ -35,5 +27,5 @@ fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
 @fragment
 fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
     view = view_buffer;
-    return vec4f(background(position.xy), 1.0);
+    return vec4f(background(position.xy, pixel_direction(position.xy)), 1.0);
 }

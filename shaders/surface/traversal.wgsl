@@ -19,6 +19,10 @@ const TRAVERSAL_STILL: f32 = 1e-20;
 // Where a ray meets the outer border of a clamped field's outermost cells: never.
 const TRAVERSAL_NEVER: f32 = 3e38;
 
+// How far a ray toward a light is lifted off the surface that it starts from: five times what rounding can do to a height, so
+// that its slope against the light decides the rest, and a tenth of what a shadow may miss.
+const TRAVERSAL_LIFT: f32 = 9.6e-7;
+
 // What does not change on the way.
 struct TraversalWay {
     cells: vec2i,          // of the field, an axis
@@ -56,13 +60,27 @@ fn traversal_across(way: TraversalWay, place: TraversalPlace, within: vec2i, cro
     return TraversalPlace(cell - over, place.tile + over, select(place.level, above, any(leaves) || any(over != vec2i(0))));
 }
 
-// Nothing is above the highest bound: the search of a falling ray begins where it goes under that.
+// Nothing is above this.
+fn traversal_highest() -> f32 {
+    return textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r + TRAVERSAL_SLACK;
+}
+
+// The search of a falling ray begins where it goes under the highest bound.
 fn traversal_begin(ray: Ray) -> f32 {
     if ray.rise >= 0.0 {
         return 0.0;
     }
-    let highest = textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r + TRAVERSAL_SLACK;
-    return clamp((highest - ray.height) / ray.rise, 0.0, ray.t_end);
+    return clamp((traversal_highest() - ray.height) / ray.rise, 0.0, ray.t_end);
+}
+
+// Whether nothing stands in the way from a height over the ray's start, with this travel for each height that is climbed.
+fn traversal_escapes(ray: Ray, start: f32, travel: vec2f) -> bool {
+    let highest = traversal_highest();
+    if start >= highest {
+        return true;
+    }
+    // A ray that gave up found no way out: it counts as blocked.
+    return traversal(Ray(ray.lattice, travel, start, 1.0, ray.cell, highest - start, MISS), 0.0).status == MISS;
 }
 
 // The first meeting of the ray with the surface for t in [t_begin, t_end].
@@ -155,20 +173,25 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
     return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, CAPPED);
 }
 
-// Where on its way through a cell, from 0 at t_in to 1 at t_out, the ray first meets the bilinear patch; 2 where it does not.
-//
-// On that way g = (ray − surface) is A s² + B s + C with C = g(0) and A + B + C = g(1), both evaluated where they are.
-fn traversal_leaf(ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, t_in: f32, t_out: f32) -> f32 {
-    // The cell is one of the field's, or the half cell before it: no remainder to take, as load_corners does.
+// The corners of the place's cell, which is one of the field's or the half cell before it: no remainder to take, as load_corners
+// does.
+fn traversal_corners(way: TraversalWay, place: TraversalPlace) -> vec4f {
     let low = max(place.cell, vec2i(0));
     let beyond = select(way.cells - 1, vec2i(0), vec2<bool>(way.wraps));
     let high = select(place.cell + 1, beyond, place.cell == way.cells - 1);
-    let z = vec4f(
+    return vec4f(
         textureLoad(height, low, 0).r,
         textureLoad(height, vec2i(high.x, low.y), 0).r,
         textureLoad(height, vec2i(low.x, high.y), 0).r,
         textureLoad(height, high, 0).r,
     );
+}
+
+// Where on its way through a cell, from 0 at t_in to 1 at t_out, the ray first meets the bilinear patch; 2 where it does not.
+//
+// On that way g = (ray − surface) is A s² + B s + C with C = g(0) and A + B + C = g(1), both evaluated where they are.
+fn traversal_leaf(ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, t_in: f32, t_out: f32) -> f32 {
+    let z = traversal_corners(way, place);
     let along_u = z.y - z.x;
     let along_v = z.z - z.x;
     let twist = z.x - z.y - z.z + z.w;

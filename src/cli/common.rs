@@ -5,14 +5,15 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Verbosity;
+use super::display::DisplayOptions;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, mesh, non_empty, shadow, shadow_help, sign, size, technique,
-    technique_help, whole_u64,
+    backend, camera, depth, field, fov, height_range, mesh, non_empty, shading, shading_help, shadow, shadow_help, sign, size,
+    technique, technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::MeshSource;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 /// What every mode that shows a scene takes.
 #[derive(Args, Clone, Debug, PartialEq)]
@@ -22,10 +23,13 @@ pub struct CommonOptions {
     pub scene: String,
 
     #[arg(long, value_name = "T", value_parser = technique, help = technique_help(), help_heading = "Scene")]
-    technique: Option<Technique>,
+    pub(super) technique: Option<Technique>,
 
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
-    shadow: Option<Shadow>,
+    pub(super) shadow: Option<Shadow>,
+
+    #[arg(long, value_name = "M", value_parser = shading, help = shading_help(), help_heading = "Scene")]
+    shading: Option<Shading>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -84,6 +88,10 @@ pub struct CommonOptions {
     #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
     fov: Option<f64>,
 
+    /// What is shown of it.
+    #[command(flatten)]
+    pub display: DisplayOptions,
+
     /// Which machine, and how much it tells.
     #[command(flatten)]
     pub machine: MachineOptions,
@@ -105,6 +113,7 @@ impl CommonOptions {
             displaced_depth: self.displaced_depth,
             technique: self.technique,
             shadow: self.shadow,
+            shading: self.shading,
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,

@@ -1,20 +1,51 @@
 //! The text of a value to the value, or else the rest of the sentence "`--flag` cannot be `text`: …".
 
-use super::Channel;
+use super::{Channel, Truth};
 use crate::io::scene_file::{CameraPlacement, FieldSize};
 use crate::mesh::MeshSource;
 use crate::scene;
 use crate::suggest;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 pub(super) fn technique_help() -> String {
-    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
-    format!("How the surface is traced: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+    format!("How the surface is traced: {} [default: the scene's]", technique_names("or"))
 }
 
 pub(super) fn shadow_help() -> String {
+    format!("The shadow upon it: {} [default: the scene's]", shadow_names("or"))
+}
+
+pub(super) fn techniques_help() -> String {
+    format!("Techniques to compare, of {} [default: all of them, or that of --technique]", technique_names("and"))
+}
+
+pub(super) fn shadows_help() -> String {
+    format!("Shadows to compare each of them with, of {} [default: the scene's, or that of --shadow]", shadow_names("and"))
+}
+
+fn technique_names(conjunction: &str) -> String {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    suggest::enumerate(&names, conjunction)
+}
+
+fn shadow_names(conjunction: &str) -> String {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
-    format!("The shadow upon it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+    suggest::enumerate(&names, conjunction)
+}
+
+pub(super) fn shading_help() -> String {
+    let names: Vec<_> = Shading::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What light does to it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+/// One of a list, by its name.
+pub(super) fn one_of<T: Copy>(kind: &str, text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
+    let names: Vec<_> = all.iter().map(|&choice| name(choice)).collect();
+    all.iter().copied().find(|&choice| name(choice) == text).ok_or_else(|| suggest::unknown(kind, text, &names))
+}
+
+pub(super) fn shading(text: &str) -> Result<Shading, String> {
+    one_of("shading", text, Shading::ALL, Shading::name)
 }
 
 pub(super) fn technique(text: &str) -> Result<Technique, String> {
@@ -35,6 +66,12 @@ pub(super) fn channel(text: &str) -> Result<Channel, String> {
     let names = Channel::ALL.map(Channel::name);
     let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
     found.ok_or_else(|| suggest::unknown("channel", text, &names))
+}
+
+pub(super) fn truth(text: &str) -> Result<Truth, String> {
+    let names = Truth::ALL.map(Truth::name);
+    let found = Truth::ALL.into_iter().find(|truth| truth.name() == text);
+    found.ok_or_else(|| suggest::unknown("truth", text, &names))
 }
 
 pub(super) fn backend(text: &str) -> Result<wgpu::Backends, String> {
@@ -70,6 +107,17 @@ fn positive_u32(text: &str) -> Result<u32, String> {
         Ok(number) if number > 0 => Ok(number),
         _ => Err(format!("it must be a whole number from 1 to {}", u32::MAX)),
     }
+}
+
+/// Samples along a ray.
+pub(super) fn samples(text: &str) -> Result<u32, String> {
+    const MOST: u32 = 65536;
+    let count = positive_u32(text).ok().filter(|count| *count <= MOST);
+    count.ok_or_else(|| format!("each must be a whole number from 1 to {MOST}"))
+}
+
+pub(super) fn field_width(text: &str) -> Result<u32, String> {
+    positive_u32(text).map_err(|_| format!("each must be a whole number from 1 to {}", u32::MAX))
 }
 
 pub(super) fn frames(text: &str) -> Result<u32, String> {
@@ -120,6 +168,10 @@ pub(super) fn stamp_radius(text: &str) -> Result<f32, String> {
 
 pub(super) fn fov(text: &str) -> Result<f64, String> {
     number_within(text, scene::VERTICAL_FOV_DEGREES)
+}
+
+pub(super) fn gain(text: &str) -> Result<f64, String> {
+    number_within(text, scene::Range::above(0.0, 1e6, ""))
 }
 
 pub(super) fn dt(text: &str) -> Result<f64, String> {

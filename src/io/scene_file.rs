@@ -12,7 +12,7 @@ use crate::mesh::{Mesh, MeshSource};
 use crate::scene::{self, Base, Camera, Scene, SceneError, Text, VERSION};
 use crate::suggest;
 use crate::surface::albedo_image::ColourImage;
-use crate::surface::{Albedo, Shadow, Technique};
+use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
 pub const EMBEDDED: [(&str, &str); 8] = [
@@ -74,6 +74,8 @@ pub struct SceneOverrides {
     pub technique: Option<Technique>,
     /// The shadow upon it.
     pub shadow: Option<Shadow>,
+    /// What light does to it.
+    pub shading: Option<Shading>,
     /// Seed of everything random.
     pub seed: Option<u64>,
     /// A camera in place of the scene's and all its motion.
@@ -347,6 +349,9 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     }
     if let Some(shadow) = overrides.shadow {
         scene.trace.shadow = shadow;
+    }
+    if let Some(shading) = overrides.shading {
+        scene.material.model = shading;
     }
     if let Some(seed) = overrides.seed {
         scene.seed = seed;

@@ -99,7 +99,7 @@ fn by_material(pieces: Vec<Piece>) -> Vec<Piece> {
 
 impl Piece {
     /// Refuses what cannot be drawn, and forgets normals and tangents that are none.
-    fn check(&mut self) -> Result<(), Unfit> {
+    pub(super) fn check(&mut self) -> Result<(), Unfit> {
         if let Some(i) = self.positions.iter().position(|position| !position.is_finite()) {
             let kind = if self.positions[i].is_nan() { "NaN" } else { "infinite" };
             return Err(Unfit(format!("has a position that is {kind}, of vertex {i} (from 0): repair the mesh")));
@@ -167,7 +167,8 @@ impl Piece {
         let mut places: HashMap<(u32, [u32; 7]), u32> = HashMap::with_capacity(positions.len());
         for ((corners, normals), frames) in triangles.iter().zip(&normals).zip(&frames) {
             let mut triangle = [0, 1, 2].map(|i| {
-                let (normal, tangent) = (normals[i], frames[i]);
+                // −0 becomes 0, lest it tell vertices apart.
+                let (normal, tangent) = (normals[i] + Vec3::ZERO, frames[i] + Vec4::ZERO);
                 let [x, y, z] = normal.to_array();
                 let [t, u, v, w] = tangent.to_array();
                 let vertices = &mut mesh.vertices;

@@ -24,7 +24,7 @@ use super::{Mesh, Unfit, Vertex};
 /// The file is damaged, or needs what this reader lacks; another file that it names cannot be read; or the mesh is not one to carry a
 /// height field.
 pub fn parse(name: &str, bytes: &[u8], read: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>) -> Result<Mesh, Unfit> {
-    let file = format::Gltf::from_slice(bytes).map_err(|error| explain(&error))?;
+    let file = open(bytes)?;
     let buffers = Buffers::load(&file, read)?;
     let mut rig = Rig::new(&file, &buffers)?;
     let mut reader = Reader { name, buffers: &buffers, pieces: Vec::new(), triangles: 0 };
@@ -33,6 +33,25 @@ pub fn parse(name: &str, bytes: &[u8], read: &mut dyn FnMut(&str) -> Result<Vec<
     }
     let skin = rig.finish();
     assemble(name, reader.pieces, skin)
+}
+
+/// The file, valid as far as the crate checks it, and beyond: it looks up positions before it has checked that they are there, and
+/// never checks what an animation moves.
+fn open(bytes: &[u8]) -> Result<format::Gltf, Unfit> {
+    let format::Gltf { document, blob } = format::Gltf::from_slice_without_validation(bytes).map_err(|error| explain(&error))?;
+    let root = document.into_json();
+    let used = root.meshes.iter().flat_map(|mesh| &mesh.primitives).flat_map(|primitive| primitive.attributes.values());
+    if let Some(missing) = used.map(|index| index.value()).find(|&index| index >= root.accessors.len()) {
+        return Err(Unfit(format!("uses an accessor {missing}, and there is none: save it anew")));
+    }
+    let channels = root.animations.iter().flat_map(|animation| &animation.channels);
+    for (number, target) in channels.map(|channel| &channel.target).enumerate() {
+        if target.node.value() >= root.nodes.len() || target.path == format::json::validation::Checked::Invalid {
+            return Err(Unfit(format!("has a channel {number} of its animations that moves nothing: save it anew")));
+        }
+    }
+    let document = format::Document::from_json(root).map_err(|error| explain(&error))?;
+    Ok(format::Gltf { document, blob })
 }
 
 struct Reader<'a> {
@@ -87,10 +106,14 @@ impl Reader<'_> {
         let uvs = read(&Semantic::TexCoords(0), 2)?.ok_or_else(|| {
             Unfit(format!("has no texture coordinates in {mesh}: unwrap it in the program that made it and save them too"))
         })?;
-        let normals = read(&Semantic::Normals, 3)?.unwrap_or_default();
-        let tangents = read(&Semantic::Tangents, 4)?.unwrap_or_default();
-        for (what, count) in [("texture coordinates", uvs.len()), ("normals", normals.len()), ("tangents", tangents.len())] {
-            if count != positions.len() && count > 0 {
+        let normals = read(&Semantic::Normals, 3)?;
+        let tangents = read(&Semantic::Tangents, 4)?;
+        for (what, count) in [
+            ("texture coordinates", Some(uvs.len())),
+            ("normals", normals.as_ref().map(Vec::len)),
+            ("tangents", tangents.as_ref().map(Vec::len)),
+        ] {
+            if let Some(count) = count.filter(|&count| count != positions.len()) {
                 let positions = positions.len();
                 return Err(Unfit(format!("has {count} {what} for {positions} positions in {mesh}: save it anew")));
             }
@@ -113,17 +136,20 @@ impl Reader<'_> {
         };
         self.triangles += triangles.len();
         check_count(self.triangles)?;
-        Ok(Piece {
+        let mut piece = Piece {
             material: material_name(primitive),
             positions,
-            normals: normals.into_iter().map(Vec4::truncate).collect(),
+            normals: normals.unwrap_or_default().into_iter().map(Vec4::truncate).collect(),
             uvs: uvs.into_iter().map(|uv| Vec2::new(uv.x, uv.y)).collect(),
-            tangents: tangents.into_iter().map(Vec4::truncate).collect(),
+            tangents: tangents.unwrap_or_default().into_iter().map(Vec4::truncate).collect(),
             triangles,
             // The format: "when normals are not specified, client implementations must calculate flat normals".
             crease_cosine: f32::INFINITY,
             ..Piece::default()
-        })
+        };
+        // Before a matrix makes NaN of an infinity.
+        piece.check()?;
+        Ok(piece)
     }
 
     /// What the vertices of a skinned primitive hang on.

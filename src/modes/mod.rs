@@ -1,9 +1,12 @@
-//! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
+//! How the frame is run: live in a window, to files, to numbers, against the truth. The modes differ in who owns the clock and where the picture goes.
 
 pub mod adapters;
 pub mod capture;
+pub mod compare;
+pub mod headless;
 pub mod live;
 mod progress;
+pub mod statistics;
 pub mod stress;
 
 use crate::cli::CommonOptions;
@@ -28,6 +31,12 @@ pub enum ModeError {
     /// A pass cannot be made.
     #[error(transparent)]
     Shader(#[from] ShaderError),
+    /// The specification does not say what the scene shows.
+    #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
+    NoReference,
+    /// The table does not hold against an earlier one.
+    #[error(transparent)]
+    Check(#[from] compare::check::CheckError),
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -3,15 +3,25 @@
 //! Plain and readable comes first: nothing here shares a trick with the shaders, so that an error has to be made twice, in two
 //! ways, to go unnoticed. Heights are f32, as the textures hold them; everything computed from them is f64.
 
+pub mod balls;
 pub mod compose;
+pub mod light_disc;
+pub mod light_ggx;
+pub mod light_phong;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
+pub mod shadow_area;
+pub mod shadow_cone;
 pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
+pub mod shadow_steep;
+pub mod shell;
+pub mod sky;
 pub mod stamp;
 pub mod trace_exact;
+pub mod trace_mesh;
 pub mod trace_normal;
 pub mod trace_pom;
 pub mod traversal;

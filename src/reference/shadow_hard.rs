@@ -16,11 +16,16 @@ pub fn way_to_light(field: &HeightField, ray: &Ray) -> (Line, f64) {
 /// The share of the light that arrives: 0 where the surface rises above the ray on its way, else 1.
 pub fn shadow(field: &HeightField, ray: &Ray) -> f64 {
     let (line, end) = way_to_light(field, ray);
+    if escapes(field, &line, end) { 1.0 } else { 0.0 }
+}
+
+/// Whether a line that starts upon the surface is nowhere under it before `end`.
+pub fn escapes(field: &HeightField, line: &Line, end: f64) -> bool {
     let mut stretches = line.stretches(field, 0.0, end);
     // The first stretch starts upon the surface, above nothing: its slope decides.
     let blocked = stretches.next().is_some_and(|mut first| {
         first.gap[0] = 0.0;
         first.lowest() < 0.0
     }) || stretches.any(|stretch| stretch.lowest() < 0.0);
-    if blocked { 0.0 } else { 1.0 }
+    !blocked
 }

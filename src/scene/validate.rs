@@ -5,17 +5,27 @@ use std::fmt;
 use crate::surface::Albedo;
 use crate::surface::view::BALLS_MAX;
 
-use super::{Ball, Base, Camera, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace, VERSION, Wave, check_text};
+use super::{
+    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace, VERSION, Wave,
+    check_text,
+};
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
 pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
 /// Vertical field of view of a camera.
 pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low: false, with_high: false, unit: "degrees" };
+/// What shines: a colour, its strength.
+const RADIANCE: Range = Range::from_to(0.0, 1e4, "");
+/// Half the angle that the light's disc spans. A wider one is no disc that a plane at right angles to its centre could stand for.
+pub const LIGHT_HALF_ANGLE_DEGREES: Range = Range::above(0.0, 15.0, "degrees");
 /// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
 pub const COURANT_SQUARED_MAX: f64 = 0.49;
 
 /// Samples of a search. More change no picture and stall a frame: 65,536 cross a field of 16,384 texels four times a texel.
 const SAMPLES: Range = Range::from_to(1.0, 65536.0, "samples");
+
+/// Triangles of a micropolygon mesh: the plane's own two, and as many as fit the buffers that every adapter allows.
+const MESH_TRIANGLES: Range = Range::from_to(2.0, 8_388_608.0, "triangles");
 
 /// The numbers that a key may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,6 +110,7 @@ impl Scene {
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
         validate_light(&self.light)?;
+        validate_lights(&self.lights)?;
         validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
         self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
         validate_balls(&self.balls)?;
@@ -238,25 +249,41 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
     number("trace.pom_samples_min", trace.pom_samples_min, SAMPLES)?;
     number("trace.pom_samples_max", trace.pom_samples_max, SAMPLES)?;
+    number("trace.mesh_triangles", trace.mesh_triangles, MESH_TRIANGLES)?;
     if trace.pom_samples_min > trace.pom_samples_max {
         let allowed = format!("at most `trace.pom_samples_max`, {}", trace.pom_samples_max);
         return refuse("trace.pom_samples_min", trace.pom_samples_min, allowed);
     }
     number("trace.shadow_samples", trace.shadow_samples, SAMPLES)?;
     number("trace.shadow_strength", trace.shadow_strength, Range::from_to(0.0, 1000.0, ""))?;
+    number("trace.area_samples", trace.area_samples, Range::from_to(1.0, 4096.0, "samples"))?;
     number("trace.step_cap", trace.step_cap, Range::from_to(1.0, 16_777_216.0, "steps"))?;
     number("trace.supersampling", trace.supersampling, Range::from_to(1.0, 8.0, "rays along a pixel's side"))
 }
 
 fn validate_light(light: &Light) -> Result<(), SceneError> {
-    number("light.azimuth_degrees", light.azimuth_degrees, Range::from_to(-3600.0, 3600.0, "degrees"))?;
-    number("light.elevation_degrees", light.elevation_degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
-    let radiance = Range::from_to(0.0, 1e4, "");
-    numbers("light.colour", &light.colour, radiance)?;
-    number("light.intensity", light.intensity, radiance)?;
-    numbers("light.sky", &light.sky, radiance)?;
-    numbers("light.ground", &light.ground, radiance)?;
-    number("light.turn_degrees_per_second", light.turn_degrees_per_second, Range::from_to(-3600.0, 3600.0, "degrees per second"))
+    validate_directional("light", &DirectionalLight::of(light))?;
+    number("light.half_angle_degrees", light.half_angle_degrees, LIGHT_HALF_ANGLE_DEGREES)?;
+    numbers("light.sky", &light.sky, RADIANCE)?;
+    numbers("light.ground", &light.ground, RADIANCE)
+}
+
+fn validate_lights(lights: &[DirectionalLight]) -> Result<(), SceneError> {
+    if lights.len() >= LIGHTS_MAX {
+        let allowed = format!("at most {} beside `[light]`: remove some", LIGHTS_MAX - 1);
+        return refuse("lights", format!("a list of {}", lights.len()), allowed);
+    }
+    lights.iter().enumerate().try_for_each(|(i, light)| validate_directional(&format!("lights[{i}]"), light))
+}
+
+fn validate_directional(key: &str, light: &DirectionalLight) -> Result<(), SceneError> {
+    let key = |name: &str| format!("{key}.{name}");
+    number(key("azimuth_degrees"), light.azimuth_degrees, Range::from_to(-3600.0, 3600.0, "degrees"))?;
+    number(key("elevation_degrees"), light.elevation_degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
+    numbers(&key("colour"), &light.colour, RADIANCE)?;
+    number(key("intensity"), light.intensity, RADIANCE)?;
+    let turn = Range::from_to(-3600.0, 3600.0, "degrees per second");
+    number(key("turn_degrees_per_second"), light.turn_degrees_per_second, turn)
 }
 
 fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), SceneError> {
@@ -274,7 +301,12 @@ fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), 
         _ => {}
     }
     numbers("material.tint", &material.tint, Range::from_to(0.0, 10.0, ""))?;
-    number("material.specular", material.specular, Range::from_to(0.0, 1.0, ""))?;
+    let share = Range::from_to(0.0, 1.0, "");
+    number("material.specular", material.specular, share)?;
+    number("material.roughness", material.roughness, share)?;
+    number("material.metallic", material.metallic, share)?;
+    number("material.reflection", material.reflection, share)?;
+    number("material.refractive_index", material.refractive_index, Range::from_to(1.0, 4.0, ""))?;
     number("material.shininess", material.shininess, Range::above(0.0, 1e5, ""))
 }
 
@@ -311,8 +343,17 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
+            lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()
         }
+    }
+
+    #[test]
+    fn a_fifth_light_is_refused() {
+        let mut scene = full();
+        scene.lights.push(DirectionalLight::default());
+        let error = scene.validate().expect_err("five lights").to_string();
+        assert!(error.contains("at most 3 beside `[light]`"), "{error}");
     }
 
     #[test]

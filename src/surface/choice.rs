@@ -47,6 +47,8 @@ choices! {
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
+        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
+        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
@@ -57,10 +59,26 @@ choices! {
     Shadow {
         /// Nothing blocks the light.
         None = "none", "shadow_none", "None";
-        /// Weighted samples along the light ray (\[POM\] §3.2).
-        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// Layers of equal height toward the light, without interpolation (\[Steep\]).
+        Steep = "steep", "shadow_steep", "Steep";
         /// Any hit of the exact traversal.
         Hard = "hard", "shadow_hard", "Hard (exact)";
+        /// Weighted samples along the light ray (\[POM\] §3.2).
+        PomSoft = "pom-soft", "shadow_pom_soft", "POM soft";
+        /// The light's disc in three slices, the horizon of each through the pyramid.
+        Cone = "cone", "shadow_cone", "Cone (soft)";
+        /// An exact ray to each of many points of the light's disc: the truth.
+        Area = "area", "shadow_area", "Area (truth)";
+    }
+}
+
+choices! {
+    /// What light does at the surface: a file that defines `fn light(…) -> vec3f` and what surroundings add.
+    Shading {
+        /// Blinn–Phong, as the papers have it.
+        Phong = "phong", "light_phong", "Blinn–Phong";
+        /// GGX microfacets over a matt base.
+        Ggx = "ggx", "light_ggx", "Physically based (GGX)";
     }
 }
 
@@ -83,6 +101,8 @@ choices! {
         Terrain = "terrain", "albedo_terrain", "Terrain";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
+        /// Clear glass over a table.
+        Glass = "glass", "albedo_glass", "Glass";
     }
 }
 
@@ -101,11 +121,65 @@ pub enum Shows {
     Visibility = 3,
     /// The samples or nodes of the view ray, as heat: 64 and more are the brightest.
     Steps = 4,
+    /// How far the view ray moved along the surface, in depths of the field: grey is nowhere, red to the right, green up.
+    UvOffset = 5,
+    /// The level of the pyramid at which the view ray found the surface, as heat.
+    Level = 6,
+    /// How far the point that the technique found lies from the one of the exact traversal, as heat.
+    Error = 7,
 }
 
 impl Shows {
     /// Every view, in the order in which a key cycles them.
-    pub const ALL: &'static [Self] = &[Self::Picture, Self::Height, Self::Normal, Self::Visibility, Self::Steps];
+    pub const ALL: &'static [Self] =
+        &[Self::Picture, Self::Height, Self::Normal, Self::UvOffset, Self::Visibility, Self::Steps, Self::Level, Self::Error];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "final",
+            Self::Height => "height",
+            Self::Normal => "normals",
+            Self::UvOffset => "uv-offset",
+            Self::Visibility => "visibility",
+            Self::Steps => "steps",
+            Self::Level => "pyramid-level",
+            Self::Error => "error",
+        }
+    }
+
+    /// What the brightest heat of the view stands for, where it has one; `gain` is that of the view of errors.
+    pub fn heat_top(self, gain: f32) -> Option<f32> {
+        match self {
+            Self::Steps => Some(Self::STEPS_TOP as f32),
+            Self::Level => Some(Self::LEVELS_TOP as f32),
+            Self::Error => Some(1.0 / gain),
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset => None,
+        }
+    }
+
+    /// The unit of what it shows, where it shows a number.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Steps => "height samples or nodes",
+            Self::Level => "levels",
+            Self::Error => "texels",
+            Self::Height => "of the depth",
+            Self::Visibility => "of the light",
+            Self::Picture | Self::Normal | Self::UvOffset => "",
+        }
+    }
+
+    /// Steps that are the brightest heat.
+    pub const STEPS_TOP: u32 = 64;
+
+    /// Levels that are the brightest heat: a field of 4,096 texels has as many.
+    pub const LEVELS_TOP: u32 = 12;
+
+    /// The view of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|shows| shows.name() == name)
+    }
 
     /// What the panel calls it.
     pub const fn label(self) -> &'static str {
@@ -113,8 +187,11 @@ impl Shows {
             Self::Picture => "Picture",
             Self::Height => "Height",
             Self::Normal => "Normals",
+            Self::UvOffset => "Offset of the texture",
             Self::Visibility => "Visibility of the light",
             Self::Steps => "Steps a pixel",
+            Self::Level => "Level of the pyramid",
+            Self::Error => "Error against exact",
         }
     }
 }

@@ -3,7 +3,10 @@
 pub mod albedo_image;
 pub mod channels;
 pub mod choice;
+pub mod display;
 pub mod facet;
+pub mod light_probe;
+pub mod micropolygon;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;
@@ -14,7 +17,9 @@ pub mod surface;
 pub mod view;
 
 pub use channels::Channels;
-pub use choice::{Albedo, Shadow, Shows, Technique};
+pub use choice::{Albedo, Shading, Shadow, Shows, Technique};
+pub use display::{Display, Split};
+pub use light_probe::LightProbe;
 pub use probe::Probe;
 pub use stage::{Seen, Stage};
 pub use surface::Surface;
@@ -33,15 +38,32 @@ pub struct Choice {
     pub shadow: Shadow,
     /// The colour of the undisturbed surface.
     pub albedo: Albedo,
+    /// What light does to it.
+    pub shading: Shading,
+    /// Whether the exact traversal runs beside the technique: what the view of errors shows. A part of its own, since an
+    /// adapter that runs both sides of every branch would pay for it in every picture.
+    pub with_truth: bool,
 }
 
 impl Choice {
     /// The cheapest, for what is no relief.
-    pub const PLAIN: Self = Self { technique: Technique::Normal, shadow: Shadow::None, albedo: Albedo::Plain };
+    pub const PLAIN: Self = Self::tracing(Technique::Normal, Shadow::None);
+
+    /// A technique and a shadow, where nobody looks at colours.
+    pub const fn tracing(technique: Technique, shadow: Shadow) -> Self {
+        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false }
+    }
 
     /// A scene's.
     pub fn of(scene: &Scene) -> Self {
-        Self { technique: scene.trace.technique, shadow: scene.trace.shadow, albedo: scene.material.albedo }
+        let (trace, material) = (&scene.trace, &scene.material);
+        Self { albedo: material.albedo, shading: material.model, ..Self::tracing(trace.technique, trace.shadow) }
+    }
+
+    /// The same for a view of what it traces.
+    #[must_use]
+    pub const fn showing(self, shows: Shows) -> Self {
+        Self { with_truth: matches!(shows, Shows::Error), ..self }
     }
 }
 
@@ -49,17 +71,32 @@ impl Choice {
 /// adapter does.
 pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let Choice { technique, shadow, albedo } = choice;
-    let stems = [technique.stem(), shadow.stem(), "balls", "matter", albedo.stem(), "shade", "channel"];
+    let Choice { technique, shadow, albedo, shading, with_truth } = choice;
+    let stems = [
+        technique.stem(),
+        shadow.stem(),
+        "sky",
+        "balls",
+        "matter",
+        "transparent",
+        albedo.stem(),
+        shading.stem(),
+        "shade",
+        if with_truth { "truth_exact" } else { "truth_none" },
+        "views",
+        "channel",
+    ];
     let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
+        "common/heat",
         "surface/ray",
         "common/field",
         sampled,
         "surface/frame",
         "surface/ray_map",
         "surface/traversal",
+        "surface/light_disc",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -76,7 +113,9 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Bronze | Albedo::Image | Albedo::Planet | Albedo::Terrain | Albedo::Water => Vec::new(),
+        Albedo::Plain | Albedo::Bronze | Albedo::Image | Albedo::Planet | Albedo::Terrain | Albedo::Water | Albedo::Glass => {
+            Vec::new()
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Raster: the buffers of a mesh, and the pipelines of everything that is drawn with a depth buffer. Shader parts:
 //! `shaders/surface/raster.wgsl` and the geometries that need it.
 
+use super::micropolygon::MicroVertex;
 use super::{Choice, constants, facet, parts, shell};
 use crate::gpu::{Binding, BindingLayout, Gpu, Role, ShaderError};
 use crate::mesh::Vertex;
@@ -43,6 +44,8 @@ pub enum Geometry {
     Facets(bool),
     /// A mesh as a shell.
     Shell,
+    /// A mesh, or the plane alone, as micropolygons.
+    Micropolygons,
     /// The balls.
     Balls,
 }
@@ -58,7 +61,8 @@ pub enum Output {
 
 impl Geometry {
     /// Every geometry.
-    pub const ALL: [Self; 6] = [Self::Backdrop, Self::Plane, Self::Facets(false), Self::Facets(true), Self::Shell, Self::Balls];
+    pub const ALL: [Self; 7] =
+        [Self::Backdrop, Self::Plane, Self::Facets(false), Self::Facets(true), Self::Shell, Self::Micropolygons, Self::Balls];
 
     /// The WGSL parts with its entry points, in order, under `shaders/surface`.
     pub const fn stems(self) -> &'static [&'static str] {
@@ -67,6 +71,7 @@ impl Geometry {
             Self::Plane => &["surface", "raster", "plane"],
             Self::Facets(_) => &["raster", "facet"],
             Self::Shell => &["raster", "shell"],
+            Self::Micropolygons => &["raster", "micropolygon"],
             Self::Balls => &["surface", "raster", "ball"],
         }
     }
@@ -76,6 +81,7 @@ impl Geometry {
             Self::Backdrop | Self::Plane | Self::Balls => "cover",
             Self::Facets(_) => "facet_vertex",
             Self::Shell => "shell_vertex",
+            Self::Micropolygons => "micropolygon_vertex",
         }
     }
 
@@ -89,6 +95,8 @@ impl Geometry {
             (Self::Facets(_), Output::Channels(_)) => "facet_channel",
             (Self::Shell, Output::Radiance) => "shell",
             (Self::Shell, Output::Channels(_)) => "shell_channel",
+            (Self::Micropolygons, Output::Radiance) => "micropolygon",
+            (Self::Micropolygons, Output::Channels(_)) => "micropolygon_channel",
             (Self::Balls, Output::Radiance) => "ball",
             (Self::Balls, Output::Channels(_)) => "ball_channel",
         }
@@ -96,7 +104,7 @@ impl Geometry {
 
     const fn cull_mode(self) -> Option<wgpu::Face> {
         match self {
-            Self::Facets(_) => Some(wgpu::Face::Back),
+            Self::Facets(_) | Self::Micropolygons => Some(wgpu::Face::Back),
             // The far sides of a tetrahedron are seen even when the eye is inside.
             Self::Shell => Some(wgpu::Face::Front),
             Self::Backdrop | Self::Plane | Self::Balls => None,
@@ -134,7 +142,16 @@ pub fn pipeline(
     if let Output::Channels(part) = output {
         constants.push(("CHANNEL_PART", f64::from(part)));
     }
-    let blend = (output == Output::Radiance && geometry == Geometry::Plane).then_some(wgpu::BlendState::ALPHA_BLENDING);
+    if geometry == Geometry::Shell {
+        constants.push(("SHELL_FLAT", shell::FLAT));
+    }
+    let is_clipped = matches!(geometry, Geometry::Plane | Geometry::Micropolygons);
+    let blend = (output == Output::Radiance && is_clipped).then_some(wgpu::BlendState::ALPHA_BLENDING);
+    let micro_vertices = [Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<MicroVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &MicroVertex::ATTRIBUTES,
+    })];
     let format = match output {
         Output::Radiance => Radiance::CONTRACT.format,
         Output::Channels(_) => CHANNEL_FORMAT,
@@ -148,7 +165,7 @@ pub fn pipeline(
             module: &module,
             entry_point: Some(geometry.vertex_entry()),
             compilation_options: compilation_options.clone(),
-            buffers: &[],
+            buffers: if geometry == Geometry::Micropolygons { &micro_vertices } else { &[] },
         },
         primitive: wgpu::PrimitiveState { cull_mode: geometry.cull_mode(), ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
@@ -216,7 +233,8 @@ impl MeshBuffers {
     }
 }
 
-fn raster_vertices(vertices: &[Vertex], indices: &[u32]) -> Vec<RasterVertex> {
+/// The vertices of a mesh as shaders pull them.
+pub(super) fn raster_vertices(vertices: &[Vertex], indices: &[u32]) -> Vec<RasterVertex> {
     let metres = facet::metres_per_uv(vertices, indices);
     let inward = shell::inward(vertices);
     let vertex = |((vertex, metres_per_uv), inward): ((&Vertex, [f32; 2]), glam::Vec3)| RasterVertex {

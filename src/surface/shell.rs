@@ -11,6 +11,10 @@ use crate::mesh::Vertex;
 /// low-polygon objects that relief mapping is for.
 pub const TRIANGLES_MAX: usize = 100_000;
 
+/// A tetrahedron with less volume, six times, than this share of the product of three of its edges is flat: an f32 knows its frame no
+/// more.
+pub const FLAT: f64 = 1e-4;
+
 /// A triangle of a shell. Twin of the WGSL struct.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -5,9 +5,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::micropolygon::{Micropolygons, Plan};
 use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
 use super::ray_map::Target;
-use super::{Choice, Shows, View, ViewSet, bind_field, facet, field_layout, view};
+use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
 use crate::camera::Camera;
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Gpu, Readback, Recorder, ShaderError};
@@ -23,10 +24,11 @@ pub struct Stage {
     /// Built when they are first needed.
     pipelines: RefCell<HashMap<(Choice, Geometry, Output), wgpu::RenderPipeline>>,
     mesh: Option<Body>,
+    micropolygons: Option<Micropolygons>,
     /// The bindings of an empty mesh, for what has none.
     no_mesh: MeshBuffers,
-    /// One for each draw at most.
-    views: Vec<ViewSet>,
+    /// One for each draw at most, on each side of a divider.
+    views: [Vec<ViewSet>; 2],
     depth: wgpu::TextureView,
     size: [u32; 2],
 }
@@ -54,14 +56,16 @@ pub struct Seen<'a> {
     pub camera: &'a Camera,
     /// The time that it shows, seconds.
     pub time_seconds: f64,
-    /// What the picture shows.
-    pub shows: Shows,
+    /// What is shown of it: what is on the right of a divider is not for here.
+    pub display: Display,
 }
 
 impl Stage {
-    /// Whether a scene needs one: without, the plane alone is drawn, which antialiases its border.
+    /// Whether a scene without a mesh needs one: else the plane alone is drawn, which antialiases its border.
     pub fn is_needed(scene: &Scene) -> bool {
-        scene.mesh.is_some() || !scene.balls.is_empty() || scene.trace.shell || scene.trace.displaced_depth
+        let trace = &scene.trace;
+        let is_rasterised = trace.shell || trace.displaced_depth || trace.technique == Technique::Mesh;
+        !scene.balls.is_empty() || is_rasterised
     }
 
     /// Makes one for pictures of `size` traced pixels; `mesh` is the scene's, or the plane where its shell is drawn.
@@ -76,8 +80,9 @@ impl Stage {
             field_group,
             pipelines: RefCell::default(),
             mesh: None,
+            micropolygons: None,
             no_mesh,
-            views: Vec::new(),
+            views: Default::default(),
             depth: depth_buffer(gpu, size),
             size,
         };
@@ -87,6 +92,10 @@ impl Stage {
 
     /// Puts another mesh on it.
     pub fn set_mesh(&mut self, gpu: &Gpu, mesh: Option<Mesh>) {
+        if self.mesh.as_ref().map(|body| &body.mesh) == mesh.as_ref() {
+            return;
+        }
+        self.micropolygons = None;
         self.mesh = mesh.map(|mesh| {
             let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, true);
             Body { mesh, buffers }
@@ -103,22 +112,37 @@ impl Stage {
         self.pipelines.get_mut().clear();
     }
 
-    /// Builds what a scene's picture needs and is not there yet.
+    /// Builds what a view of a scene needs and is not there yet, on the left or, `side` being 1, the right of a divider.
     ///
     /// # Errors
     ///
     /// A shader does not compile.
-    pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene) -> Result<(), ShaderError> {
+    pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene, shows: Shows, side: usize) -> Result<(), ShaderError> {
+        self.prepare_micropolygons(gpu, scene, side);
         // What is drawn does not depend on the camera.
         let camera = &Camera::at(&scene.camera, 0.0);
-        let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, shows: Shows::Picture }, self.size);
+        let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, display: shows.into() }, self.size);
         for draw in &draws {
             self.build(gpu, draw.choice, draw.geometry, Output::Radiance)?;
         }
-        while self.views.len() < draws.len() {
-            self.views.push(ViewSet::new(gpu, &self.view_layout, field.addressing));
+        while self.views[side].len() < draws.len() {
+            self.views[side].push(ViewSet::new(gpu, &self.view_layout, field.addressing));
         }
         Ok(())
+    }
+
+    /// Makes the micropolygons that a side asks for, unless they are there; the first side drops those that it does not.
+    fn prepare_micropolygons(&mut self, gpu: &Gpu, scene: &Scene, side: usize) {
+        let plane = || (scene.plane_size_metres().map(|metres| metres as f32), scene.field.addressing);
+        let plan = Plan { triangles: scene.trace.mesh_triangles, bare_plane: self.mesh.is_none().then(plane) };
+        if scene.trace.technique != Technique::Mesh {
+            if side == 0 {
+                self.micropolygons = None;
+            }
+        } else if self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
+            let mesh = self.mesh.as_ref().map(|body| (body.mesh.vertices.as_slice(), body.mesh.indices.as_slice()));
+            self.micropolygons = Some(Micropolygons::new(gpu, plan, mesh.unwrap_or_default()));
+        }
     }
 
     fn build(&self, gpu: &Gpu, choice: Choice, geometry: Geometry, output: Output) -> Result<(), ShaderError> {
@@ -133,11 +157,14 @@ impl Stage {
 
     /// Everything that is drawn, from back to front where that matters.
     fn draws(&self, seen: &Seen<'_>, image_size: [u32; 2]) -> Vec<Draw> {
-        let Seen { scene, camera, time_seconds, shows } = *seen;
-        let choice = Choice::of(scene);
-        let view = View::new(scene, camera, time_seconds, image_size, shows);
+        let Seen { scene, camera, time_seconds, display } = *seen;
+        let choice = Choice::of(scene).showing(display.shows);
+        let view = View::new(scene, camera, time_seconds, image_size, display);
         let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: Choice::PLAIN, triangles: 0..1, view }];
         match &self.mesh {
+            None if choice.technique == Technique::Mesh => {
+                draws.push(Draw { geometry: Geometry::Micropolygons, choice, triangles: 0..2, view: View { planar: 2, ..view } });
+            }
             None => draws.push(Draw { geometry: Geometry::Plane, choice, triangles: 0..1, view }),
             Some(body) => {
                 let parts = body.mesh.parts.iter();
@@ -160,15 +187,25 @@ impl Stage {
         draws
     }
 
-    /// Records one render pass over the whole of `radiance`. The pipelines must have been prepared.
-    pub fn record(&self, recorder: &mut Recorder<'_>, seen: &Seen<'_>, radiance: &wgpu::TextureView) {
+    /// Records one render pass over these columns of `radiance`, under a name of its own; whoever begins at the first begins the
+    /// picture. The pipelines of this side must have been prepared.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &str,
+        side: usize,
+        seen: &Seen<'_>,
+        radiance: &wgpu::TextureView,
+        columns: Range<u32>,
+    ) {
         let draws = self.draws(seen, self.size);
-        for (draw, set) in draws.iter().zip(&self.views) {
+        for (draw, set) in draws.iter().zip(&self.views[side]) {
             set.uniform.write(recorder.gpu, &draw.view);
         }
         self.pose(recorder.gpu, seen.time_seconds);
-        recorder.render_with_depth("surface", radiance, &self.depth, |pass| {
-            self.draw(pass, &draws, &self.views, Output::Radiance);
+        recorder.render_onto(name, radiance, Some(&self.depth), columns.start > 0, |pass| {
+            pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, self.size[1]);
+            self.draw(pass, &draws, &self.views[side], Output::Radiance);
         });
     }
 
@@ -177,7 +214,11 @@ impl Stage {
         if let Some(Body { mesh, buffers }) = &self.mesh
             && mesh.skin.is_some()
         {
-            buffers.pose(gpu, &mesh.posed(time_seconds), &mesh.indices);
+            let vertices = mesh.posed(time_seconds);
+            buffers.pose(gpu, &vertices, &mesh.indices);
+            if let Some(micropolygons) = &self.micropolygons {
+                micropolygons.pose(gpu, (&vertices, &mesh.indices));
+            }
         }
     }
 
@@ -196,6 +237,13 @@ impl Stage {
                 Geometry::Facets(_) => {
                     pass.set_index_buffer(buffers.indices(), wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(3 * start..3 * end, 0, 0..1);
+                }
+                Geometry::Micropolygons => {
+                    // The plane alone goes on beyond its border: over the tiles around it, where the field wraps.
+                    let instances = if draw.view.planar == 2 && draw.view.wrap == 1 { 9 } else { 1 };
+                    if let Some(micropolygons) = &self.micropolygons {
+                        micropolygons.draw(pass, &micropolygons.of(&draw.triangles), instances);
+                    }
                 }
                 // Three tetrahedra of four sides.
                 Geometry::Shell => pass.draw(36 * start..36 * end, 0..1),
@@ -258,17 +306,19 @@ impl Stage {
     /// Bytes of GPU memory that its buffers take.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
-        self.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes()) + 4 * width * height
+        let micropolygons = self.micropolygons.as_ref().map_or(0, Micropolygons::memory_bytes);
+        self.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes()) + micropolygons + 4 * width * height
     }
 }
 
 /// The draws of one material of a mesh.
 fn mesh_draws(mesh: &Mesh, triangles: Range<u32>, view: View, seen: &Seen<'_>, choice: Choice) -> Vec<Draw> {
     let scene = seen.scene;
-    if scene.trace.shell {
+    let is_micro = choice.technique == Technique::Mesh;
+    if scene.trace.shell && !is_micro {
         return vec![Draw { geometry: Geometry::Shell, choice, triangles, view }];
     }
-    let geometry = Geometry::Facets(scene.trace.displaced_depth);
+    let geometry = if is_micro { Geometry::Micropolygons } else { Geometry::Facets(scene.trace.displaced_depth) };
     if !mesh.is_planar {
         return vec![Draw { geometry, choice, triangles, view }];
     }

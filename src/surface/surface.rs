@@ -1,5 +1,7 @@
 //! Surface: the plane with its relief, traced pixel by pixel into radiance. Shader: `shaders/surface/surface.wgsl`.
 
+use std::ops::Range;
+
 use super::{Choice, ViewSet, bind_field, constants, field_layout, parts};
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Contract, Gpu, Recorder, Role, ShaderError};
@@ -21,7 +23,7 @@ impl Role for Radiance {
     };
 }
 
-/// Traces and shades what the camera sees, with one technique, shadow and albedo.
+/// Traces and shades what the camera sees, with one look.
 pub struct Surface {
     pipeline: wgpu::RenderPipeline,
     layout: BindingLayout,
@@ -78,9 +80,20 @@ impl Surface {
         SurfaceSet { group: bind_field(gpu, &self.layout, field) }
     }
 
-    /// Records one render pass over the whole of `radiance`.
-    pub fn record(&self, recorder: &mut Recorder<'_>, view: &ViewSet, set: &SurfaceSet, radiance: &wgpu::TextureView) {
-        recorder.render("surface", radiance, |pass| {
+    /// Records one render pass over these columns of `radiance`, under a name of its own; whoever begins at the first begins the
+    /// picture.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &str,
+        view: &ViewSet,
+        set: &SurfaceSet,
+        radiance: &wgpu::TextureView,
+        columns: Range<u32>,
+    ) {
+        let height = radiance.texture().height();
+        recorder.render_onto(name, radiance, None, columns.start > 0, |pass| {
+            pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, height);
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &view.group, &[]);
             pass.set_bind_group(1, &set.group, &[]);

@@ -5,10 +5,10 @@ use glam::{DMat3, DMat4, DVec4};
 use crate::camera::Camera;
 use crate::field::base;
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
-use crate::scene::{Addressing, Scene};
+use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
-use super::Shows;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
+use super::{Display, micropolygon};
 
 /// A ball beside the relief. Twin of the WGSL struct in `shaders/common/view.wgsl`.
 #[repr(C)]
@@ -23,6 +23,17 @@ pub struct Ball {
 
 /// The most balls of a scene.
 pub const BALLS_MAX: usize = 4;
+
+/// A directional light. Twin of the WGSL struct in `shaders/common/view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[expect(missing_docs, reason = "the WGSL twin documents the fields, and one place is enough")]
+pub struct ViewLight {
+    pub toward: [f32; 3],
+    pub casts_shadow: u32,
+    pub radiance: [f32; 3],
+    pub pad: u32,
+}
 
 /// What is seen, how it is traced, how it is lit. Twin of the WGSL struct in `shaders/common/view.wgsl`, where each field's meaning
 /// and unit stand.
@@ -50,7 +61,7 @@ pub struct View {
     pub v_world: [f32; 3],
     pub displaced_depth: u32,
     pub up_world: [f32; 3],
-    pub pad_up: u32,
+    pub mesh_quads: u32,
     pub origin_world: [f32; 3],
     pub pad_origin: u32,
     pub eye_world: [f32; 3],
@@ -64,10 +75,19 @@ pub struct View {
     pub ground: [f32; 3],
     pub shows: u32,
     pub tint: [f32; 3],
-    pub pad_tint: u32,
+    pub roughness: f32,
     pub image_size: [u32; 2],
     pub planar: u32,
     pub ball_count: u32,
+    pub metallic: f32,
+    pub reflection: f32,
+    pub index: f32,
+    pub gain: f32,
+    pub background: u32,
+    pub light_count: u32,
+    pub light_radius: f32,
+    pub area_samples: u32,
+    pub lights: [ViewLight; LIGHTS_MAX],
     pub direction_x: LinearForm,
     pub direction_y: LinearForm,
     pub direction_z: LinearForm,
@@ -81,7 +101,18 @@ pub struct View {
 
 impl View {
     /// What `camera` sees of `scene` at a time, in a picture of `image_size` traced pixels.
-    pub fn new(scene: &Scene, camera: &Camera, time_seconds: f64, image_size: [u32; 2], shows: Shows) -> Self {
+    pub fn new(scene: &Scene, camera: &Camera, time_seconds: f64, image_size: [u32; 2], display: impl Into<Display>) -> Self {
+        let display = display.into();
+        let all_lights = scene.all_lights();
+        let mut lights = [ViewLight::default(); LIGHTS_MAX];
+        for (slot, light) in lights.iter_mut().zip(&all_lights) {
+            *slot = ViewLight {
+                toward: light.direction(time_seconds).as_vec3().to_array(),
+                casts_shadow: u32::from(light.casts_shadow),
+                radiance: light.colour.map(|colour| colour * light.intensity),
+                pad: 0,
+            };
+        }
         let depth_metres = f64::from(scene.plane.depth_metres);
         let plane_size_metres = scene.plane_size_metres();
         let target = Target { placement: Placement::default(), field_size: scene.field.size, plane_size_metres, depth_metres };
@@ -103,6 +134,7 @@ impl View {
             shadow_samples: scene.trace.shadow_samples as f32,
             shadow_strength: scene.trace.shadow_strength,
             displaced_depth: u32::from(scene.trace.displaced_depth),
+            mesh_quads: micropolygon::pieces(scene.trace.mesh_triangles, 2),
             eye_world: eye.as_vec3().to_array(),
             specular: scene.material.specular,
             light_world: light.as_vec3().to_array(),
@@ -112,9 +144,19 @@ impl View {
             sky: scene.light.sky,
             texel_metres: texel_metres as f32,
             ground: scene.light.ground,
-            shows: shows as u32,
+            shows: display.shows as u32,
             tint: scene.material.tint,
+            roughness: scene.material.roughness,
             image_size,
+            metallic: scene.material.metallic,
+            reflection: scene.material.reflection,
+            index: scene.material.refractive_index,
+            gain: display.gain,
+            background: scene.light.background as u32,
+            light_count: all_lights.len() as u32,
+            light_radius: scene.light.half_angle_degrees.to_radians().tan(),
+            area_samples: scene.trace.area_samples,
+            lights,
             // Validation refuses more balls than there is room for.
             ball_count: scene.balls.len() as u32,
             direction_x: direction[0],
@@ -169,11 +211,7 @@ fn clip_from_eye(camera: &Camera, image_size: [u32; 2]) -> DMat4 {
 
 /// The unit direction toward the scene's light at a time, in the world.
 pub fn light_direction(scene: &Scene, time_seconds: f64) -> glam::DVec3 {
-    let light = &scene.light;
-    let turned = f64::from(light.turn_degrees_per_second) * time_seconds;
-    let azimuth = (f64::from(light.azimuth_degrees) + turned).to_radians();
-    let elevation = f64::from(light.elevation_degrees).to_radians();
-    glam::DVec3::new(elevation.cos() * azimuth.cos(), elevation.sin(), elevation.cos() * azimuth.sin())
+    DirectionalLight::of(&scene.light).direction(time_seconds)
 }
 
 /// Bind group 0: the frame's uniform and its bilinear sampler.

@@ -4,6 +4,7 @@ mod determinism;
 mod goldens;
 mod positions;
 mod techniques;
+mod views;
 
 use std::path::Path;
 use std::process::{Command, Output};

@@ -34,8 +34,11 @@ pub fn view(field: &HeightField) -> View {
         up_world: [0.0, 1.0, 0.0],
         pom_samples_min: 8.0,
         pom_samples_max: 50.0,
+        mesh_quads: 37,
         shadow_samples: 16.0,
         shadow_strength: 4.0,
+        light_radius: 0.05,
+        area_samples: 64,
         ..View::default()
     }
 }

@@ -76,6 +76,11 @@ pub const TANGENT_SHARE: f64 = 1e-4;
 /// diagonal of blocks, mostly).
 pub const ADVERSARIAL_TANGENT_SHARE: f64 = 7e-4;
 
+/// Share of a mesh's pixels that may disagree with brute force because a ray grazes or a silhouette passes within a 256th of a pixel of
+/// its centre: the project's bar is one in ten thousand for the plane; a shell has its silhouettes besides, which are lines of one
+/// pixel in width of which 1/128 can fall either way.
+pub const SHELL_OFF_SHARE: f64 = 5e-3;
+
 /// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
 pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 
@@ -126,3 +131,80 @@ pub const SOFT_STEP: f64 = 1.0 / 64.0;
 
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
 pub const SOFT_VARIATION: f64 = 1.01;
+
+/// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
+/// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
+pub const COMPARED_P99: f64 = 1e-3;
+/// A light model against its f64 reference, of the largest value in the list: some thirty operations at 2⁻²⁴, and a power whose
+/// base is off by one rounding, times an exponent of up to 512.
+pub const LIGHT: f64 = 4e-5;
+
+/// Reciprocity of a light model in f64: rounding alone.
+pub const RECIPROCITY: f64 = 1e-12;
+
+/// The integral of GGX over the hemisphere, by a quadrature of 4,000 angles that follow the lobe.
+pub const DISTRIBUTION_INTEGRAL: f64 = 1e-6;
+
+/// What a directional albedo may exceed 1 by: the error of its quadrature.
+pub const FURNACE: f64 = 1e-4;
+
+/// Single-scatter loss against what the shader's header states: its last digit.
+pub const FURNACE_STATED: f64 = 1e-3;
+
+/// The sky against its f64 reference, and its mean against the colours that it is made of: the horizon's soft edge lends each
+/// half a ten-thousandth of the other.
+pub const SKY: f64 = 1e-6;
+/// See [`SKY`].
+pub const SKY_MEAN: f64 = 2e-4;
+/// Share of receivers where `steep` may differ from its f64 reference: a layer that only just grazes, and the filter's 8 bits.
+pub const STEEP_OFF_SHARE: f64 = 2e-3;
+
+/// Share of receivers where 4,096 layers may differ from a hard shadow: blockers that stand up for less than a layer.
+pub const STEEP_HARD_SHARE: f64 = 5e-3;
+
+/// Points of the light's disc that a straight cut may have too many or too few, times their number to the power of ¼.
+pub const DISC_POINTS: f64 = 1.0;
+
+/// `area` against its f64 reference, root of the mean square: where a ray grazes, rounding decides one point of 32.
+pub const AREA_RMS: f64 = 2e-3;
+
+/// `area` with 1,024 points against the disc's ramp: a cut's too many or too few points, and the ramp of the texel that the
+/// bilinear step is wide.
+pub const AREA_RAMP: f64 = 0.01;
+
+/// `cone` against its f64 reference: rounding of a slope over the light's radius.
+pub const CONE_VISIBILITY: f64 = 5e-3;
+
+/// Share of receivers where it may differ by more.
+pub const CONE_OFF_SHARE: f64 = 5e-3;
+
+/// What rounding may add to the visibility of a blocker that grows.
+pub const CONE_ROUNDING: f64 = 1e-4;
+
+/// `cone` against the disc's ramp behind a straight step, whose bilinear edge is one texel wide.
+pub const CONE_RAMP: f64 = 0.01;
+
+/// Root of the mean square of what `cone` differs from the truth on a wall, a step and smooth terrain: the project's bar.
+pub const CONE_RMS: f64 = 0.03;
+
+/// Share of receivers to which a light of a milliradian is a point: the project's bar.
+pub const CONE_POINT_SHARE: f64 = 0.999;
+/// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
+/// MikkTSpace.
+pub const MESH_FRAME: f64 = 1e-5;
+
+/// Metres by which a position of about one metre may be off after a handful of affine maps in f32.
+pub const MESH_LENGTH: f64 = 1e-5;
+
+/// The ray's parameter at a hit of the micropolygon mesh: the rounding of a height over the angle between ray and facet.
+pub const MESH_PARAMETER: f64 = 1e-5;
+
+/// Share of rays through it that may end elsewhere: a ray that only just passes an edge, by rounding.
+pub const MESH_OFF_SHARE: f64 = 2e-3;
+
+/// Cells by which a pixel of rasterised micropolygons may be off: interpolation snaps corners to 1/256 pixel, and a pixel of that
+/// test is some 1.5 cells wide, several where the surface turns away.
+pub const MESH_PIXEL_CELLS: f64 = 0.05;
+
+/// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
+pub const MESH_PIXEL_SHARE: f64 = 2e-3;

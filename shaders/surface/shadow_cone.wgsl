@@ -1,0 +1,274 @@
+// Cone shadows: a light that is a disc, near the cost of a hard shadow.
+//
+//   height   r32float  read  the field; four texels a leaf                                   16 bytes
+//   pyramid  r32float  read  level k: the largest corner under each node of 2^k cells a side  4 bytes a node
+//
+// Over a height field a direction is free if and only if it is above the horizon of its azimuth. So the disc is cut into upright
+// slices, and each is as visible as it stands above its own horizon: one number a slice, where `area` needs many rays. A
+// horizon is found by one traversal whose ray only ever climbs faster: it begins at the foot of the slice, rises to the top of
+// whatever stands in its way, and is done when it reaches the head of the slice (dark) or leaves the highest bound behind.
+//
+// Three slices, and the middle one first, which most receivers are done with: on its way it also looks at the nodes beside its
+// own, as far as the disc's wedge reaches. Where nothing on the whole way stands up into the wedge the light is free.
+// Otherwise the slices at its sides begin where the first thing does. Nearer than where the wedge reaches half a texel from its
+// middle the sides matter only if the middle meets something there.
+//
+// One slice alone has 2.5 times the error where walls stand askew or posts are thinner than the cone, two cost as much as this.
+//
+// Specification: src/reference/shadow_cone.rs. Needs surface/traversal and surface/light_disc.
+
+const SHADOW_CONE_SLICES: i32 = 3;
+// Half the width of the wedge, in texels, from which on its sides are looked at.
+const SHADOW_CONE_NEAR: f32 = 0.5;
+// Largest `lean` of a disc: nearer to the zenith azimuths turn within it, and no slice is upright. There the light is tilted.
+const SHADOW_CONE_LEAN: f32 = 0.9;
+
+// How the middle slice looks at its sides.
+struct ShadowConeFlank {
+    watched: bool,
+    side: vec2i,   // one node along the axis on which the ray is slower
+    spread: f32,   // lattice distance along that axis from the middle of the wedge to its edge, while t grows by 1
+    ahead: f32,    // share of t by which a side may have got ahead of the middle
+}
+
+struct ShadowConeHorizon {
+    climb: f32,  // of the slowest ray that is free, in units of the centre's
+    begin: f32,  // t at which something first stands up into the wedge; TRAVERSAL_NEVER where nothing does
+}
+
+// The disc, tilted if it holds the zenith or nearly so.
+fn shadow_cone_disc(ray: Ray) -> LightDisc {
+    let toward = light_toward(ray);
+    let disc = light_disc(toward, view.light_radius);
+    if disc.lean <= SHADOW_CONE_LEAN {
+        return disc;
+    }
+    let normal = frame_up();
+    let beside = toward - normal * dot(normal, toward);
+    let level = select(normalize(beside), normalize(frame.along_u), dot(beside, beside) < 1e-12);
+    return light_disc(normalize(normal * SHADOW_CONE_LEAN + level * view.light_radius), view.light_radius);
+}
+
+// How fast a ray climbs through the point a above the middle of its slice, in units of the centre's; and the reverse.
+fn shadow_cone_climb(disc: LightDisc, a: f32) -> f32 {
+    return max(1.0 + a * disc.steepen / (1.0 - a * disc.lean), 1e-6);
+}
+
+fn shadow_cone_point(disc: LightDisc, climb: f32) -> f32 {
+    return (climb - 1.0) / (disc.steepen + (climb - 1.0) * disc.lean);
+}
+
+// The area of half a unit disc's piece between b = 0 and b.
+fn shadow_cone_area(b: f32) -> f32 {
+    return 0.5 * (b * sqrt(max(1.0 - b * b, 0.0)) + asin(b));
+}
+
+// The share of the disc that is in a slice between two distances from the upright through the centre, and above a.
+fn shadow_cone_share(inner: f32, outer: f32, a: f32) -> f32 {
+    let level = min(abs(a), 1.0);
+    let reach = sqrt(1.0 - level * level);
+    let near = min(inner, reach);
+    let far = min(outer, reach);
+    let beyond = shadow_cone_area(far) - shadow_cone_area(near) - level * (far - near);
+    let whole = shadow_cone_area(outer) - shadow_cone_area(inner);
+    return select(beyond, 2.0 * whole - beyond, a < 0.0) * 0.318309886;
+}
+
+fn shadow(ray: Ray) -> f32 {
+    let start = load_surface(ray_at(ray, 0.0)) + TRAVERSAL_LIFT;
+    let disc = shadow_cone_disc(ray);
+    // Where the disc dips under the reference surface's horizon, only what is above it shines.
+    let dips = 1.0 - disc.climb < disc.lowest;
+    let horizon = select(-1.0, min((disc.lowest - 1.0) / disc.climb, 1.0), dips);
+
+    let major_v = abs(disc.travel.y) > abs(disc.travel.x);
+    let major = select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), major_v);
+    let ahead = dot(disc.across, major) / dot(disc.travel, major);
+    let skewed = disc.across - ahead * disc.travel;
+    let spread = abs(dot(skewed, 1.0 - major));
+    var flank = ShadowConeFlank(true, vec2i(1.0 - major), spread, abs(ahead));
+
+    var begin = 0.0;
+    var seen = 0.0;
+    // The middle, then either side.
+    for (var slice = 0; slice < SHADOW_CONE_SLICES; slice++) {
+        let inner = select(1.0 / 3.0, 0.0, slice == 0);
+        let outer = select(1.0, 1.0 / 3.0, slice == 0);
+        let b = select(select(-2.0, 2.0, slice == 1) / 3.0, 0.0, slice == 0);
+        let head = sqrt(1.0 - inner * inner);
+        let foot = max(-head, horizon);
+        var found = ShadowConeHorizon(shadow_cone_climb(disc, foot), TRAVERSAL_NEVER);
+        if foot < head {
+            let top = shadow_cone_climb(disc, head);
+            found = shadow_cone_horizon(ray, start, disc.travel + b * disc.across, begin, found.climb, top, flank);
+        }
+        if slice == 0 {
+            begin = found.begin;
+            if begin == TRAVERSAL_NEVER && !dips {
+                return 1.0;
+            }
+            flank.watched = false;
+        }
+        let share = shadow_cone_share(inner, outer, clamp(shadow_cone_point(disc, found.climb), -1.0, 1.0));
+        seen += select(1.0, 2.0, slice == 0) * share;
+    }
+    return clamp(seen, 0.0, 1.0);
+}
+
+// The horizon of a slice, from t_begin on: `climb` raised by all that stands in the way, to no more than `top`.
+fn shadow_cone_horizon(
+    ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, foot: f32, top: f32, flank: ShadowConeFlank,
+) -> ShadowConeHorizon {
+    let highest = traversal_highest();
+    var climb = foot;
+    var begin = TRAVERSAL_NEVER;
+    if start >= highest || t_begin >= TRAVERSAL_NEVER {
+        return ShadowConeHorizon(climb, begin);
+    }
+    let still = abs(slice_travel) < vec2f(TRAVERSAL_STILL);
+    let travel = select(slice_travel, vec2f(0.0), still);
+    let per_travel = 1.0 / select(slice_travel, vec2f(TRAVERSAL_STILL), still);
+    let backward = travel < vec2f(0.0);
+    let way = TraversalWay(
+        vec2i(view.field_size), view.wrap != 0u, backward, select(vec2i(1), vec2i(-1), backward),
+        i32(textureNumLevels(pyramid)) - 1,
+    );
+    let t_near = SHADOW_CONE_NEAR / max(flank.spread, 1e-20);
+    var watched = flank.watched;
+    var t_end = (highest - start) / climb;
+
+    let first_at = ray.lattice + t_begin * travel;
+    let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
+    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
+    let cell = vec2i(select(floor(first_at), ceil(first_at) - 1.0, backward)) + ray.cell;
+    var place = TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
+    if way.wraps {
+        let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
+        place = TraversalPlace(cell - tile, tile - ray.cell, level);
+    }
+
+    var t = t_begin;
+    var steps = 0u;
+    while t < t_end {
+        // On to the next cell whose bound is above the ray; see surface/traversal.
+        var t_out = t;
+        var crosses = vec2<bool>(false);
+        var arrived = false;
+        while !arrived && steps < view.step_cap {
+            steps += 1u;
+            let scale = vec2u(u32(place.level));
+            let last_node = traversal_nodes(way, place.level) - 1;
+            let node = traversal_node(way, place, place.level);
+            let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
+            let outermost = node == select(last_node, vec2i(-1), backward);
+            let border = select((node + select(vec2i(1), vec2i(0), backward)) << scale, way.cells, outermost);
+            let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
+            let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+            t_out = max(t, min(min(t_border.x, t_border.y), t_end));
+            crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
+
+            let first = max(node << scale, vec2i(-1));
+            let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
+            let height = start + climb * t;
+            var enters = height <= bound;
+            if watched && t_out > t_near {
+                let width = flank.spread * t_out;
+                let size = f32(1u << u32(place.level));
+                if size < width && place.level < way.top {
+                    // Too small for its neighbours to show the whole wedge.
+                    place.level += 1;
+                    continue;
+                }
+                let rises = enters || shadow_cone_flanks(ray, travel, way, place, flank, node, first, last, t, t_out, width, height);
+                if rises && (place.level == 0 || size <= 2.0 * width) {
+                    begin = select(t * max(1.0 - flank.ahead, 0.0), 0.0, t < t_near);
+                    watched = false;
+                } else {
+                    enters = rises;
+                }
+            }
+            arrived = enters && place.level == 0;
+            if !arrived {
+                if !enters && t_out >= t_end {
+                    return ShadowConeHorizon(climb, begin);
+                }
+                t = select(t_out, t, enters);
+                let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
+                if enters {
+                    place = TraversalPlace(there, place.tile, place.level - 1);
+                } else {
+                    place = traversal_across(way, place, select(there, select(last, first, backward), crosses), crosses);
+                }
+            }
+        }
+        if !arrived {
+            // It gave up, and counts as dark.
+            return ShadowConeHorizon(top, min(begin, t));
+        }
+        let needed = shadow_cone_leaf(ray, travel, way, place, start, t, t_out);
+        if needed > climb {
+            climb = needed;
+            begin = min(begin, select(t * max(1.0 - flank.ahead, 0.0), 0.0, t < t_near));
+            watched = false;
+            if climb >= top {
+                return ShadowConeHorizon(top, begin);
+            }
+            t_end = (highest - start) / climb;
+        }
+        t = t_out;
+        place = traversal_across(way, place, place.cell, crosses);
+    }
+    return ShadowConeHorizon(climb, begin);
+}
+
+// Whether a node beside the ray's own, into which the wedge reaches, has a bound above the ray.
+fn shadow_cone_flanks(
+    ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, flank: ShadowConeFlank,
+    node: vec2i, first: vec2i, last: vec2i, t: f32, t_out: f32, width: f32, height: f32,
+) -> bool {
+    let axis = vec2f(flank.side);
+    let origin = dot(axis, ray.lattice - vec2f(place.tile));
+    let enter = origin + t * dot(axis, travel);
+    let leave = origin + t_out * dot(axis, travel);
+    let last_node = traversal_nodes(way, place.level) - 1;
+    var rises = false;
+    if min(enter, leave) - width < dot(axis, vec2f(first)) {
+        let below = node - flank.side;
+        let beside = select(max(below, vec2i(0)), select(below, last_node, below < vec2i(0)), vec2<bool>(way.wraps));
+        rises = height <= textureLoad(pyramid, beside, place.level).r + TRAVERSAL_SLACK;
+    }
+    if max(enter, leave) + width > dot(axis, vec2f(last + 1)) {
+        let above = max(node, vec2i(0)) + flank.side;
+        let beside = select(min(above, last_node), select(above, vec2i(0), above > last_node), vec2<bool>(way.wraps));
+        rises = rises || height <= textureLoad(pyramid, beside, place.level).r + TRAVERSAL_SLACK;
+    }
+    return rises;
+}
+
+// How fast a ray must climb from the start to clear the surface in a cell, from t_in to t_out.
+fn shadow_cone_leaf(ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, start: f32, t_in: f32, t_out: f32) -> f32 {
+    let z = traversal_corners(way, place);
+    let along_u = z.y - z.x;
+    let along_v = z.z - z.x;
+    let twist = z.x - z.y - z.z + z.w;
+    let origin = ray.lattice - vec2f(place.cell + place.tile);
+    let enter = clamp(origin + t_in * travel, vec2f(0.0), vec2f(1.0));
+    let leave = clamp(origin + t_out * travel, vec2f(0.0), vec2f(1.0));
+    // The surface is start + c + b s + a s² for s from 0 to 1, and what is needed (c + b s + a s²) / (t_in + length s).
+    let c = z.x + along_u * enter.x + (along_v + twist * enter.x) * enter.y - start;
+    let end = z.x + along_u * leave.x + (along_v + twist * leave.x) * leave.y - start;
+    let a = twist * (leave.x - enter.x) * (leave.y - enter.y);
+    let b = end - c - a;
+    let length = t_out - t_in;
+    // At its own start a ray is above the surface, by the lift.
+    var needed = max(end / max(t_out, 1e-20), select(-1.0, c / t_in, t_in > 0.0));
+    // A crest within: the derivative a length s² + 2 a t_in s + (b t_in − c length) vanishes. Without cancellation.
+    let slope = b * t_in - c * length;
+    if a < 0.0 && slope > 0.0 {
+        let s = slope / (sqrt(a * a * t_in * t_in - a * length * slope) - a * t_in);
+        if s < 1.0 {
+            needed = max(needed, (c + s * (b + s * a)) / (t_in + length * s));
+        }
+    }
+    return needed;
+}

@@ -1,0 +1,65 @@
+//! The panel's group of the surface: technique, shadow, and what belongs to them.
+
+use egui::Ui;
+
+use super::Panel;
+use super::widgets::{Control, choice, group, value};
+use crate::surface::{Shadow, Technique};
+
+impl Panel {
+    pub(super) fn surface_group(&mut self, ui: &mut Ui) {
+        let (plane, plane_was) = (&mut self.scene.plane, &self.original.plane);
+        let (trace, was) = (&mut self.scene.trace, &self.original.trace);
+        let changed = trace != was || plane != plane_was;
+        let reset = group(ui, "Surface", true, Some(changed), |ui| {
+            const TECHNIQUE: &str = "How the ray of a pixel finds the surface (T)";
+            choice(ui, "Technique", TECHNIQUE, &mut trace.technique, was.technique, Technique::ALL, Technique::label);
+            choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
+            let depth = Control::new("Depth", " mm", 1.0, 500.0).scale(1e3).decimals(1);
+            value(ui, &depth.tip("How far height 0 lies below the plane"), &mut plane.depth_metres, plane_was.depth_metres);
+            if trace.technique == Technique::Pom {
+                let tip = "Samples along a ray that meets the surface head-on ([POM] eq. 1)";
+                let control = Control::new("Samples, head-on", "", 1.0, 128.0).integer().tip(tip);
+                value(ui, &control, &mut trace.pom_samples_min, was.pom_samples_min);
+                let tip = "Samples along a ray that grazes the surface ([POM] eq. 1)";
+                let control = Control::new("Samples, grazing", "", 1.0, 512.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.pom_samples_max, was.pom_samples_max);
+                trace.pom_samples_max = trace.pom_samples_max.max(trace.pom_samples_min);
+            }
+            if trace.technique == Technique::Mesh {
+                let tip = "About how many micropolygons there are";
+                let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
+            }
+            if trace.shadow == Shadow::Area {
+                let tip = "Points of the light's disc, a ray each";
+                let control = Control::new("Shadow rays", "", 1.0, 1024.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.area_samples, was.area_samples);
+            }
+            if trace.shadow == Shadow::PomSoft {
+                let tip = "Samples along the ray to the light";
+                let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
+                value(ui, &control, &mut trace.shadow_samples, was.shadow_samples);
+                let tip = "How fast a blocker darkens";
+                let control = Control::new("Shadow strength", " ×", 0.0, 20.0).decimals(1).tip(tip);
+                value(ui, &control, &mut trace.shadow_strength, was.shadow_strength);
+            }
+            if trace.technique == Technique::Exact || trace.shadow == Shadow::Hard {
+                let tip = "Nodes that one ray may visit before it gives up";
+                let control = Control::new("Step cap", "", 16.0, 65536.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.step_cap, was.step_cap);
+            }
+            let tip = "Draw the relief as a solid with a silhouette of its own, which ends at its mesh's borders";
+            ui.checkbox(&mut trace.shell, "Shell").on_hover_text(tip);
+            let tip = "Write the relief's depth instead of the polygon's, so that surfaces intersect as they should";
+            ui.checkbox(&mut trace.displaced_depth, "Displaced depth").on_hover_text(tip);
+            let tip = "Rays along each side of a pixel: the cost is its square";
+            let control = Control::new("Supersampling", " ×", 1.0, 4.0).integer().tip(tip);
+            value(ui, &control, &mut trace.supersampling, was.supersampling);
+        });
+        if reset {
+            *trace = was.clone();
+            *plane = plane_was.clone();
+        }
+    }
+}
