@@ -7,11 +7,12 @@ use crate::camera::Camera;
 use crate::clock::Tick;
 use crate::field::bins::BinError;
 use crate::field::compose::{Compose, ComposeSet};
+use crate::field::normal_mips::{NormalMips, NormalMipsSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
 use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
-use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
+use crate::field::{Dirty, Field, Region, base, compose, normal_mips, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
 use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
@@ -118,6 +119,8 @@ pub struct Frame {
     compose_set: ComposeSet,
     normals: Normals,
     normals_set: NormalsSet,
+    normal_mips: NormalMips,
+    normal_mips_set: NormalMipsSet,
     pyramid: Pyramid,
     pyramid_set: PyramidSet,
     /// One for each choice that was ever shown: switching back costs nothing.
@@ -171,6 +174,8 @@ impl Frame {
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let (stamp_set, compose_set, normals_set, pyramid_set) =
             (stamps.bind(gpu, &field), compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
+        let normal_mips = NormalMips::new(gpu)?;
+        let normal_mips_set = normal_mips.bind(gpu, &field);
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -188,6 +193,8 @@ impl Frame {
             compose_set,
             normals,
             normals_set,
+            normal_mips,
+            normal_mips_set,
             pyramid,
             pyramid_set,
             surfaces: HashMap::new(),
@@ -231,6 +238,7 @@ impl Frame {
             surfaces.insert(choice, (surface, set));
         }
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let normal_mips = NormalMips::new(gpu)?;
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
@@ -245,6 +253,7 @@ impl Frame {
         self.built_for = None;
         self.surfaces = surfaces;
         (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
+        self.normal_mips = normal_mips;
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
         }
@@ -275,7 +284,7 @@ impl Frame {
         {
             set.set_scene(gpu, &self.field, wave, scene.plane_size_metres());
         }
-        if before.plane != scene.plane || before.wave != scene.wave {
+        if before.plane != scene.plane || before.wave != scene.wave || before.lod.filters() != scene.lod.filters() {
             self.dirty = Dirty::All;
         }
         Ok(())
@@ -460,7 +469,12 @@ impl Frame {
         };
         self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
-        self.normals.record(recorder, &self.normals_set, &grown(1, 1), slope_per_height(&self.scene));
+        let leaning = grown(1, 1);
+        self.normals.record(recorder, &self.normals_set, &leaning, slope_per_height(&self.scene));
+        // … what is left of that from afar, where the scene looks so …
+        if self.scene.lod.filters() {
+            self.normal_mips.record(recorder, &self.normal_mips_set, &leaning);
+        }
         // … and its bounds, which the cells before a texel see.
         self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
     }
@@ -504,7 +518,8 @@ impl Frame {
     pub fn field_traffic_bytes(&self) -> u64 {
         let texels = u64::from(self.field.size[0]) * u64::from(self.field.size[1]);
         let waves = if self.waves.is_some() { 4 } else { 0 };
-        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + pyramid::TEXEL_BYTES;
+        let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
+        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
         u64::from(self.traffic.wave_steps) * texels * wave::TEXEL_BYTES
             + self.traffic.stamped_texels * stamp::TEXEL_BYTES
             + self.traffic.derived_texels * derived

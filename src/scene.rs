@@ -6,6 +6,8 @@
 mod bodies;
 mod framing;
 mod lights;
+mod lod;
+mod techniques;
 mod text;
 mod validate;
 
@@ -18,8 +20,10 @@ use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
+pub use lod::{LOD_THRESHOLD, Lod};
+pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
-pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
+pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES, check_camera};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;
@@ -57,6 +61,9 @@ pub struct Scene {
     /// How the surface is traced.
     #[serde(default)]
     pub trace: Trace,
+    /// How closely it is looked at from afar.
+    #[serde(default)]
+    pub lod: Lod,
     /// The light.
     #[serde(default)]
     pub light: Light,
@@ -102,8 +109,12 @@ pub enum Addressing {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plane {
-    /// Extent along x, metres. The extent along z follows from the field's aspect: texels are square.
+    /// Extent of the field along x, metres. The extent along z follows from the field's aspect: texels are square.
     pub width_metres: f32,
+    /// How often the plane shows the field along u and v. One copy stays where the only one would be, the others surround it:
+    /// uv leaves 0 to 1, and all that says where a uv lies holds as it stands.
+    #[serde(deserialize_with = "exactly")]
+    pub repeat: [u32; 2],
     /// Depth of h = 0 below the plane, metres.
     pub depth_metres: f32,
 }
@@ -134,6 +145,10 @@ pub enum Base {
     StillLife {},
     /// A sign: text in relief.
     Text(Text),
+    /// Short fur, combed, the same that the `fur` albedo colours.
+    Fur {},
+    /// A lawn with daisies, the same that the `grass` albedo colours.
+    Grass {},
     /// An image's heights.
     Image {
         /// A PNG or EXR file.
@@ -233,10 +248,22 @@ pub struct Trace {
     pub technique: Technique,
     /// The shadow upon it.
     pub shadow: Shadow,
-    /// Samples of `pom` seen head-on (\[POM\] eq. 1, n_min).
+    /// Layers of `steep`.
+    pub steep_layers: u32,
+    /// Samples of the linear search of `relief`.
+    pub relief_linear_steps: u32,
+    /// Samples of its binary search.
+    pub relief_binary_steps: u32,
+    /// Whether `relief` shortens the offset of rays that graze (\[POM\] fig. 2).
+    pub relief_depth_bias: bool,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: PomCounts,
+    /// Samples of `pom` and `pom-linear` seen head-on (\[POM\] eq. 1, n_min), or the fewest.
     pub pom_samples_min: u32,
-    /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
+    /// Samples of `pom` and `pom-linear` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: PyramidLeaf,
     /// About how many triangles `mesh` has.
     pub mesh_triangles: u32,
     /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
@@ -245,7 +272,7 @@ pub struct Trace {
     pub shadow_strength: f32,
     /// Points of the light's disc to which `area` sends a ray each.
     pub area_samples: u32,
-    /// Nodes that one ray of `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
+    /// Nodes that one ray of `pyramid`, `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
@@ -327,6 +354,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// Metres a second that eye and target travel along x, y and z.
+    #[serde(deserialize_with = "exactly")]
+    pub fly_metres_per_second: [f64; 3],
 }
 
 fn one() -> f32 {
@@ -359,6 +389,7 @@ impl Default for Scene {
             wave: None,
             shots: None,
             trace: Trace::default(),
+            lod: Lod::default(),
             light: Light::default(),
             lights: Vec::new(),
             material: Material::default(),
@@ -377,7 +408,7 @@ impl Default for FieldSettings {
 
 impl Default for Plane {
     fn default() -> Self {
-        Self { width_metres: 1.0, depth_metres: 0.1 }
+        Self { width_metres: 1.0, repeat: [1, 1], depth_metres: 0.1 }
     }
 }
 
@@ -419,9 +450,17 @@ impl Default for Trace {
         Self {
             technique: Technique::Exact,
             shadow: Shadow::Hard,
+            // [Steep] leaves the count open: that of `pom` seen edge-on.
+            steep_layers: 50,
+            // A thousandth of the depth: 16 · 2⁶ parts of it.
+            relief_linear_steps: 16,
+            relief_binary_steps: 6,
+            relief_depth_bias: false,
+            pom_counts: PomCounts::default(),
             pom_samples_min: 8,
             pom_samples_max: 50,
             mesh_triangles: 131_072,
+            pyramid_leaf: PyramidLeaf::default(),
             shadow_samples: 16,
             shadow_strength: 4.0,
             area_samples: 64,
@@ -475,6 +514,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            fly_metres_per_second: [0.0; 3],
         }
     }
 }

@@ -53,7 +53,7 @@ fn arguments_alone_exit_with_2() {
     for (arguments, part) in [
         (&["--sceen", "relief"][..], "--scene"),
         (&["capture"], "--out"),
-        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal, pom and exact?"),
+        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal"),
         (&["capture", "--out", "out", "--view", "stpes"], "did you mean `steps`"),
         (&["stress", "--split", "pom:soft"], "unknown shadow `soft`"),
         (&["capture", "--out", "out", "--shadow", "hrad"], "did you mean `hard`"),

@@ -5,13 +5,16 @@ use std::mem::{offset_of, size_of};
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::ComposeParams;
+use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
+use rilievo::scene::{PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
+use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::raster::{Geometry, RasterVertex};
@@ -23,8 +26,9 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 6] = [
+    let fixed: [&[&str]; 7] = [
         &["common/region", "field/compose"],
+        &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
@@ -133,6 +137,12 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 pom_samples_max,
                 shadow_samples,
                 shadow_strength,
+                pom_counts,
+                steep_layers,
+                relief_linear_steps,
+                relief_binary_steps,
+                relief_depth_bias,
+                pyramid_leaf,
                 u_world,
                 first_row,
                 v_world,
@@ -172,8 +182,11 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 near_metres,
                 forward_world,
                 balls,
+                repeat,
+                detail,
             }),
         ),
+        ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),
         ("Ball", layout!(Ball { centre, radius, colour })),
         ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
         ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
@@ -183,6 +196,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
+        ("NormalMipsParams", layout!(NormalMipsParams { region, source_size, size, last_weight })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
         ("PresentSide", layout!(PresentSide { tone_map, legend })),
@@ -264,9 +278,16 @@ fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() 
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
     let tops = [("VIEWS_STEPS", Shows::STEPS_TOP), ("VIEWS_LEVELS", Shows::LEVELS_TOP)].map(|(name, top)| (name.to_owned(), top));
-    for (name, number) in shown.chain(became).chain(tops) {
+    let chosen = [("MARCH_BY_TEXELS".to_owned(), PomCounts::Texels as u32)];
+    for (name, number) in shown.chain(became).chain(tops).chain(chosen) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
     }
+}
+
+#[test]
+fn the_leaf_of_a_pyramid_has_the_same_number_on_both_sides() {
+    let module = module(&surface::parts(true, Choice { technique: Technique::Pyramid, ..Choice::PLAIN }, &["surface"]));
+    assert_eq!(constant(&module, "TRACE_PYRAMID_REFINED"), Some(PyramidLeaf::Refined as u32));
 }
 
 /// A module's constant of this name, where it is a literal.

@@ -7,6 +7,14 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// How level of detail is chosen: see surface/level_of_detail.wgsl.
+struct ViewDetail {
+    threshold: f32, // mip level beyond which normal mapping alone is left
+    traces: u32,    // 1 where the trace heeds it
+    filters: u32,   // 1 where light falls on what a pixel sees, not on one point
+    pad: u32,
+}
+
 // A light without extent, infinitely far away.
 struct ViewLight {
     toward: vec3f,      // unit vector toward it, world
@@ -41,6 +49,13 @@ struct View {
     pom_samples_max: f32,
     shadow_samples: f32,
     shadow_strength: f32,
+
+    pom_counts: u32,             // how pom chooses its counts: see surface/march.wgsl
+    steep_layers: f32,
+    relief_linear_steps: f32,
+    relief_binary_steps: u32,
+    relief_depth_bias: u32,      // 1 where relief shortens the offset of grazing rays, else 0
+    pyramid_leaf: u32,           // what pyramid makes of a leaf: see surface/trace_pyramid.wgsl
 
     // The plane's axes, unit vectors in the world, and its middle.
     u_world: vec3f,
@@ -88,6 +103,9 @@ struct View {
     near_metres: f32,
     forward_world: vec3f,        // unit, along the view axis
     balls: array<Ball, 4>,
+    repeat: vec2f,               // how often the plane shows the field along u and v
+    pad_repeat: vec2f,
+    detail: ViewDetail,
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -17,17 +17,20 @@ fn water_floor(metres: vec2f) -> vec3f {
     let position = metres / WATER_TILE_METRES;
     let tile = vec2i(floor(position));
     let inside = 0.5 - abs(fract(position) - 0.5);
-    let shade = hash_cell(tile, 61u);
-    let accent = step(0.93, hash_cell(tile, 62u));
+    let seen = footprint_metres() / WATER_TILE_METRES;
+    let apart = detail_left(seen);
+    let shade = mix(0.5, hash_cell(tile, 61u), apart);
+    let accent = mix(0.07, step(0.93, hash_cell(tile, 62u)), apart);
     let glaze = mix(vec3f(0.16, 0.42, 0.47), vec3f(0.27, 0.55, 0.58), shade);
     let tile_colour = mix(glaze, vec3f(0.05, 0.20, 0.34), accent);
-    return mix(vec3f(0.62, 0.66, 0.64), tile_colour, smoothstep(0.025, 0.06, min(inside.x, inside.y)));
+    let is_tile = mix(0.84, smoothstep(0.025 - 0.5 * seen, 0.06 + 0.5 * seen, min(inside.x, inside.y)), apart);
+    return mix(vec3f(0.62, 0.66, 0.64), tile_colour, is_tile);
 }
 
 fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
     if stamped.b > 0.5 {
-        let grain = fractal_noise(plane_metres(point.lattice) * 150.0, 71u);
+        let grain = noise_over(plane_metres(point.lattice), 150.0, 71u);
         let stone = vec3f(0.46, 0.43, 0.39) * mix(0.75, 1.1, grain) * mix(0.55, 1.0, smoothstep(0.0, 0.9, point.level));
         return sooty(stone, stamped.r);
     }

@@ -24,7 +24,7 @@ fn channel_of(shaded: Shaded) -> Channel {
         shaded.height,
         uv_of(shaded.hit.lattice),
         shaded.visibility,
-        0.0,
+        select(0.0, footprint.level, view.detail.traces == 1u),
     );
 }
 

@@ -42,6 +42,8 @@ fn facet_ray(facet: FacetVaryings) -> Ray {
     let lattice = facet.uv * size - 0.5;
     frame = frame_of(lattice, facet.world, tangent * cell.x, bitangent * cell.y, normal * view.depth_metres);
 
+    raster_footprint(facet.position.xy, facet.world, normal);
+
     let direction = normalize(raster_direction(facet.position.xy));
     let way = vec3f(dot(frame.per_u, direction), dot(frame.per_v, direction), dot(frame.per_height, direction));
     let fall = max(-way.z, FACET_FALL / view.depth_metres);

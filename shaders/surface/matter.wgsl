@@ -40,6 +40,33 @@ fn plane_metres(lattice: vec2f) -> vec2f {
     return (lattice + 0.5) * view.texel_metres;
 }
 
+// Four octaves of value noise in [0, 1), the largest with so many features a metre: what is finer than the pixel becomes its mean.
+fn noise_over(metres: vec2f, per_metre: f32, salt: u32) -> f32 {
+    var sum = 0.0;
+    var weights = 0.0;
+    var weight = 0.5;
+    var position = metres * per_metre;
+    var size = footprint_metres() * per_metre;
+    for (var octave = 0u; octave < 4u; octave++) {
+        let left = detail_left(size);
+        if left > 0.0 {
+            sum += weight * left * (value_noise(position, salt + octave) - 0.5);
+        }
+        weights += weight;
+        position = 2.0 * position + 17.3;
+        size *= 2.0;
+        weight *= 0.5;
+    }
+    return 0.5 + sum / weights;
+}
+
+// How much of the pixel's width, but at least of `softness`, lies beside a stripe of this width whose middle is so far away.
+fn beside_stripe(from_middle: f32, stripe: f32, footprint_width: f32, softness: f32) -> f32 {
+    let width = max(footprint_width, softness);
+    let overlap = min(from_middle + 0.5 * width, 0.5 * stripe) - max(from_middle - 0.5 * width, -0.5 * stripe);
+    return 1.0 - clamp(overlap / width, 0.0, 1.0);
+}
+
 // The scene's material with the given colour, blackened by soot.
 fn sooty(colour: vec3f, soot: f32) -> Matter {
     let left = 1.0 - soot;

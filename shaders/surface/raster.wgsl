@@ -40,6 +40,26 @@ fn raster_depth(world: vec3f) -> f32 {
     return clamp(view.near_metres / max(dot(raster_from_eye(world), view.forward_world), view.near_metres), 0.0, 1.0);
 }
 
+// A pixel is at most so many times longer on the surface than it is wide: where a surface turns away from the eye.
+const RASTER_GRAZING: f32 = 0.02;
+
+// Sets what the pixel sees of the reference surface at a point of the world, where the frame is.
+fn raster_footprint(position: vec2f, world: vec3f, normal: vec3f) {
+    let direction = raster_direction(position);
+    let depth = dot(raster_from_eye(world), view.forward_world);
+    let fall = max(-dot(direction, normal), RASTER_GRAZING * length(direction));
+    // From the pixel's ray to its neighbours' at this depth, and along them to the surface.
+    let right = depth * vec3f(view.direction_x.exact.x, view.direction_y.exact.x, view.direction_z.exact.x);
+    let down = depth * vec3f(view.direction_x.exact.y, view.direction_y.exact.y, view.direction_z.exact.y);
+    let along_right = right + direction * (dot(right, normal) / fall);
+    let along_down = down + direction * (dot(down, normal) / fall);
+    let size = vec2f(view.field_size);
+    footprint = footprint_of(
+        vec2f(dot(frame.per_u, along_right), dot(frame.per_v, along_right)) / size,
+        vec2f(dot(frame.per_u, along_down), dot(frame.per_v, along_down)) / size,
+    );
+}
+
 struct ColourAndDepth {
     @location(0) colour: vec4f,
     @builtin(frag_depth) depth: f32,

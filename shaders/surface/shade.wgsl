@@ -17,11 +17,6 @@ struct Shaded {
     radiance: vec3f,
 }
 
-// The world normal at a lattice position, where the reference surface has the normal `reference`.
-fn normal_at(lattice: vec2f, reference: vec3f) -> vec3f {
-    return relief_normal(normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz), reference);
-}
-
 // Share of each light that reaches a point of the surface at a place in the world; 0 where the surface faces away from it. On a
 // cut through the relief nothing but the balls casts shadows.
 fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, reference: vec3f, is_cut: bool) -> vec4f {
@@ -32,7 +27,11 @@ fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, ref
             var share = balls_visibility(world, source.toward);
             if share > 0.0 && source.casts_shadow == 1u && !is_cut {
                 let direction = field_direction(source.toward, reference);
-                share *= shadow(shadow_ray(lattice, direction.xy / direction.z, height));
+                let way = direction.xy / direction.z;
+                let left = detail_shadows(way);
+                if left > 0.0 {
+                    share *= mix(1.0, shadow(shadow_ray(lattice, way, height)), left);
+                }
             }
             arrives[i] = share;
         }
@@ -42,22 +41,24 @@ fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, ref
 
 // How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of
 // it.
-fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
+fn sky_visibility(lattice: vec2f, field_height: f32) -> f32 {
+    let level = light_level();
+    let height = select(height_over(lattice, level), field_height, level == 0.0);
     let per_texel = view.depth_metres / view.texel_metres;
     let near = 4.0;
     let far = 13.0;
     let diagonal = 0.70710678 * far;
     let climbs = max(vec4f(0.0), per_texel / near * (vec4f(
-        sample_height(lattice + vec2f(near, 0.0)),
-        sample_height(lattice + vec2f(0.0, near)),
-        sample_height(lattice - vec2f(near, 0.0)),
-        sample_height(lattice - vec2f(0.0, near)),
+        height_over(lattice + vec2f(near, 0.0), level),
+        height_over(lattice + vec2f(0.0, near), level),
+        height_over(lattice - vec2f(near, 0.0), level),
+        height_over(lattice - vec2f(0.0, near), level),
     ) - height));
     let rises = max(vec4f(0.0), per_texel / far * (vec4f(
-        sample_height(lattice + vec2f(diagonal, diagonal)),
-        sample_height(lattice + vec2f(-diagonal, diagonal)),
-        sample_height(lattice - vec2f(diagonal, diagonal)),
-        sample_height(lattice + vec2f(diagonal, -diagonal)),
+        height_over(lattice + vec2f(diagonal, diagonal), level),
+        height_over(lattice + vec2f(-diagonal, diagonal), level),
+        height_over(lattice - vec2f(diagonal, diagonal), level),
+        height_over(lattice + vec2f(diagonal, -diagonal), level),
     ) - height));
     // The sines of the horizon's elevations.
     let hidden = climbs * inverseSqrt(1.0 + climbs * climbs) + rises * inverseSqrt(1.0 + rises * rises);
@@ -65,7 +66,7 @@ fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
 }
 
 fn shade(ray: Ray) -> Shaded {
-    return shade_hit(ray, trace(ray));
+    return shade_hit(ray, trace_detail(ray));
 }
 
 fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
@@ -74,10 +75,12 @@ fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     // A ray that came into a shell through its side, under the surface, sees the side itself.
     let is_cut = hit.t == 0.0 && height - hit.height > CUT_DEPTH && any(frame.cut != vec3f(0.0));
     let reference = select(frame_normal(hit.lattice), frame.cut, is_cut);
-    let normal = select(normal_at(hit.lattice, reference), frame.cut, is_cut);
+    let over = select(normal_over(hit.lattice, reference), vec4f(frame.cut, 1.0), is_cut);
+    let normal = over.xyz;
     let lit = visibilities_at(hit.lattice, height, position, normal, reference, is_cut);
     let toward_eye = normalize(view.eye_world - position);
-    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x));
+    let point = SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x);
+    let matter = detail_matter(matter_at(point), over.w);
 
     let open = sky_visibility(hit.lattice, height);
     let reflected = reflect(-toward_eye, normal);

@@ -177,6 +177,7 @@ fn shell_way(varyings: ShellVaryings) -> ShellWay {
         cross(per_height, per_u) * per_cells, up, per_u, per_v, per_height, vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0),
     );
     shell_normals(piece, anchor);
+    raster_footprint(varyings.position.xy, view.eye_world + view.eye_rest + (base + enter) * direction, frame_normal(anchor));
     // Sides between prisms are open; a ray comes in under the surface only through a border of the mesh.
     var edges = SHELL_EDGES;
     if entered < 4u && (edges[varyings.piece % 3u][entered] & piece.borders) != 0u {

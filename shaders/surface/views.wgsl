@@ -11,10 +11,19 @@ const SHOW_STEPS: u32 = 4u;
 const SHOW_UVOFFSET: u32 = 5u;
 const SHOW_LEVEL: u32 = 6u;
 const SHOW_ERROR: u32 = 7u;
+const SHOW_MIPLEVEL: u32 = 16u;
+const SHOW_LODTINT: u32 = 17u;
 
 // What the brightest heat stands for.
 const VIEWS_STEPS: u32 = 64u;
 const VIEWS_LEVELS: u32 = 12u;
+
+// [POM] fig. 12: no blue is the full effect, the deepest is normal mapping alone.
+fn views_tint(radiance: vec3f) -> vec3f {
+    let coarser = saturate(footprint.level / max(view.detail.threshold - 1.0, 1.0));
+    let blue = mix(0.35 * coarser, 1.0, footprint.flattened);
+    return mix(radiance, vec3f(0.08, 0.16, 1.0) * (0.12 + dot(radiance, vec3f(0.2126, 0.7152, 0.0722))), 0.85 * blue);
+}
 
 // The radiance of the picture or of the view that was chosen instead.
 fn shown(shaded: Shaded) -> vec3f {
@@ -38,6 +47,8 @@ fn shown(shaded: Shaded) -> vec3f {
         }
         case SHOW_LEVEL: { return heat(f32(hit_level) / f32(VIEWS_LEVELS)); }
         case SHOW_ERROR: { return heat(truth_error(shaded.ray, shaded.hit) * view.gain); }
+        case SHOW_MIPLEVEL: { return heat(footprint.level / f32(VIEWS_LEVELS)); }
+        case SHOW_LODTINT: { return views_tint(shaded.radiance); }
         default: { return shaded.radiance; }
     }
 }

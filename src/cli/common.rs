@@ -7,12 +7,14 @@ use clap::Args;
 use super::Verbosity;
 use super::display::DisplayOptions;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, mesh, non_empty, shading, shading_help, shadow, shadow_help, sign, size,
-    technique, technique_help, whole_u64,
+    Detail, backend, camera, depth, field, fov, height_range, lod, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
+    pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size, switch, technique, technique_help,
+    whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::MeshSource;
+use crate::scene::{PomCounts, PyramidLeaf};
 use crate::surface::{Shading, Shadow, Technique};
 
 /// What every mode that shows a scene takes.
@@ -30,6 +32,26 @@ pub struct CommonOptions {
 
     #[arg(long, value_name = "M", value_parser = shading, help = shading_help(), help_heading = "Scene")]
     shading: Option<Shading>,
+
+    /// Fewest and most samples of a ray: of pom and pom-linear head-on and edge-on; MAX is also the layers of steep and the
+    /// linear steps of relief [default: the scene's]
+    #[arg(long, value_name = "MIN,MAX", value_parser = sample_range, allow_hyphen_values = true, help_heading = "Scene")]
+    samples: Option<[u32; 2]>,
+
+    #[arg(long, value_name = "HOW", value_parser = pom_counts, help = pom_counts_help(), help_heading = "Scene")]
+    pom_counts: Option<PomCounts>,
+
+    /// Whether relief shortens the offset of rays that graze: on or off [default: the scene's]
+    #[arg(long, value_name = "SWITCH", value_parser = switch, help_heading = "Scene")]
+    relief_bias: Option<bool>,
+
+    #[arg(long, value_name = "LEAF", value_parser = pyramid_leaf, help = pyramid_leaf_help(), help_heading = "Scene")]
+    pyramid_leaf: Option<PyramidLeaf>,
+
+    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. exact stays exact
+    /// unless the scene says otherwise [default: the scene's]
+    #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
+    lod: Option<Detail>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -113,7 +135,12 @@ impl CommonOptions {
             displaced_depth: self.displaced_depth,
             technique: self.technique,
             shadow: self.shadow,
+            lod: self.lod.map(|detail| detail.0),
             shading: self.shading,
+            samples: self.samples,
+            pom_counts: self.pom_counts,
+            relief_depth_bias: self.relief_bias,
+            pyramid_leaf: self.pyramid_leaf,
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,

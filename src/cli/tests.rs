@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use super::*;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::{MeshSource, Shape};
+use crate::scene::{PomCounts, PyramidLeaf};
 use crate::surface::{Shadow, Technique};
 
 fn parse(line: &str) -> Result<Command, Refusal> {
@@ -47,7 +48,8 @@ fn without_a_mode_it_is_live() {
 fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
-         --height-range -5,7.5 --albedo c.png --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
+         --height-range -5,7.5 --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
+         --albedo c.png --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --adapter llvm --backend gl -v \
          --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -67,7 +69,12 @@ fn values_arrive() {
             depth_metres: Some(0.25),
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
+            lod: Some(Some(2.5)),
             shading: None,
+            samples: Some([4, 20]),
+            pom_counts: Some(PomCounts::Texels),
+            relief_depth_bias: Some(true),
+            pyramid_leaf: Some(PyramidLeaf::Nearest),
             seed: Some(u64::MAX),
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
@@ -124,7 +131,13 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live -v -q", "exclude"),
         ("live --frames 3", "--out"),
         ("live --out DIR", "--frames"),
-        ("live --technique exat", "did you mean `exact`, of normal, pom and exact?"),
+        (
+            "live --technique exat",
+            "did you mean `exact`, of normal, parallax, parallax-limited, steep, relief, pom-linear, pom, pyramid and exact?",
+        ),
+        ("live --pom-counts texel", "did you mean `texels`, of angle and texels?"),
+        ("live --relief-bias yes", "on and off"),
+        ("live --pyramid-leaf blurred", "nearest and refined"),
         ("live --technique", "--technique"),
         ("live --shading gxx", "did you mean `ggx`, of phong and ggx?"),
         ("live --view nomrals", "did you mean `normals`"),
@@ -142,11 +155,13 @@ fn nonsense_is_refused_in_one_sentence() {
         ("seed", "-1 1.5 x 18446744073709551616"),
         ("size", "0x5 5x0 5 5x 5x5x5 -5x5 5.5x5 4294967296x1 axb"),
         ("field", "0 0x5 5x0 -5 5.5 5x x 4294967296"),
+        ("samples", "8 0,5 5,4 -1,5 1.5,5 1,65537 1,2,3 a,b ,"),
         ("height-range", "1,1 5,1 1 1,2,3 nan,1 0,inf a,b , -1e39,1e39"),
         ("depth", "0 -1 nan inf x 1e9"),
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
         ("gain", "0 -1 nan inf x 1e9"),
         ("fov", "0 -45 180 nan inf x"),
+        ("lod", "-1 17 nan on x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),

@@ -3,7 +3,7 @@
 use super::{Channel, Truth};
 use crate::io::scene_file::{CameraPlacement, FieldSize};
 use crate::mesh::MeshSource;
-use crate::scene;
+use crate::scene::{self, PomCounts, PyramidLeaf};
 use crate::suggest;
 use crate::surface::{Shading, Shadow, Technique};
 
@@ -56,6 +56,66 @@ pub(super) fn technique(text: &str) -> Result<Technique, String> {
 pub(super) fn shadow(text: &str) -> Result<Shadow, String> {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
     Shadow::from_name(text).ok_or_else(|| suggest::unknown("shadow", text, &names))
+}
+
+pub(super) fn pom_counts_help() -> String {
+    let names = PomCounts::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>();
+    format!(
+        "How pom and pom-linear choose their counts: {} (one for each that the offset crosses, MIN of --samples at the least) \
+         [default: the scene's]",
+        suggest::enumerate(&names, "or")
+    )
+}
+
+pub(super) fn pom_counts(text: &str) -> Result<PomCounts, String> {
+    let names: Vec<_> = PomCounts::ALL.iter().map(|choice| choice.name()).collect();
+    let found = PomCounts::ALL.iter().copied().find(|choice| choice.name() == text);
+    found.ok_or_else(|| suggest::unknown("way to count", text, &names))
+}
+
+pub(super) fn pyramid_leaf_help() -> String {
+    let names: Vec<_> = PyramidLeaf::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What pyramid makes of the texel that a ray meets: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+pub(super) fn pyramid_leaf(text: &str) -> Result<PyramidLeaf, String> {
+    let names: Vec<_> = PyramidLeaf::ALL.iter().map(|choice| choice.name()).collect();
+    let found = PyramidLeaf::ALL.iter().copied().find(|choice| choice.name() == text);
+    found.ok_or_else(|| suggest::unknown("leaf", text, &names))
+}
+
+pub(super) fn switch(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(suggest::unknown("switch", text, &["on", "off"])),
+    }
+}
+
+/// Fewest and most samples of a ray, within what a scene may say.
+pub(super) fn sample_range(text: &str) -> Result<[u32; 2], String> {
+    let counts = text.split_once(',').map(|(least, most)| (least.trim().parse(), most.trim().parse()));
+    match counts {
+        Some((Ok(least), Ok(most))) if 1 <= least && least <= most && most <= scene::SAMPLES_MAX => Ok([least, most]),
+        _ => Err(format!(
+            "it must be two whole numbers from 1 to {}, the first no more than the second, like 8,50",
+            scene::SAMPLES_MAX
+        )),
+    }
+}
+
+/// A threshold of the level of detail, or none: off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Detail(pub(super) Option<f32>);
+
+#[expect(clippy::cast_possible_truncation, reason = "a mip level has no use for more digits")]
+pub(super) fn lod(text: &str) -> Result<Detail, String> {
+    match text {
+        "off" => Ok(Detail(None)),
+        _ => number_within(text, scene::LOD_THRESHOLD)
+            .map(|level| Detail(Some(level as f32)))
+            .map_err(|problem| format!("{problem}, or off")),
+    }
 }
 
 pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
@@ -111,9 +171,8 @@ fn positive_u32(text: &str) -> Result<u32, String> {
 
 /// Samples along a ray.
 pub(super) fn samples(text: &str) -> Result<u32, String> {
-    const MOST: u32 = 65536;
-    let count = positive_u32(text).ok().filter(|count| *count <= MOST);
-    count.ok_or_else(|| format!("each must be a whole number from 1 to {MOST}"))
+    let count = positive_u32(text).ok().filter(|count| *count <= scene::SAMPLES_MAX);
+    count.ok_or_else(|| format!("each must be a whole number from 1 to {}", scene::SAMPLES_MAX))
 }
 
 pub(super) fn field_width(text: &str) -> Result<u32, String> {

@@ -9,13 +9,13 @@ use super::height_image::{self, HeightImage, ImageError};
 use super::mesh_file::{self, MeshError};
 use crate::field::base::{self, Lettering};
 use crate::mesh::{Mesh, MeshSource};
-use crate::scene::{self, Base, Camera, Scene, SceneError, Text, VERSION};
+use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, Text, VERSION};
 use crate::suggest;
 use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 8] = [
+pub const EMBEDDED: [(&str, &str); 11] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -24,6 +24,9 @@ pub const EMBEDDED: [(&str, &str); 8] = [
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
     ("cube", include_str!("../../scenes/cube.toml")),
     ("planet", include_str!("../../scenes/planet.toml")),
+    ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
+    ("fur", include_str!("../../scenes/fur.toml")),
+    ("grass", include_str!("../../scenes/grass.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.
@@ -74,8 +77,18 @@ pub struct SceneOverrides {
     pub technique: Option<Technique>,
     /// The shadow upon it.
     pub shadow: Option<Shadow>,
+    /// Level of detail from this mip level on; `Some(None)` is off.
+    pub lod: Option<Option<f32>>,
     /// What light does to it.
     pub shading: Option<Shading>,
+    /// Fewest and most samples of a ray, of every technique that takes samples.
+    pub samples: Option<[u32; 2]>,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: Option<PomCounts>,
+    /// Whether `relief` shortens the offset of rays that graze.
+    pub relief_depth_bias: Option<bool>,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: Option<PyramidLeaf>,
     /// Seed of everything random.
     pub seed: Option<u64>,
     /// A camera in place of the scene's and all its motion.
@@ -350,14 +363,33 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(shadow) = overrides.shadow {
         scene.trace.shadow = shadow;
     }
+    if let Some(threshold) = overrides.lod {
+        scene.lod.threshold = threshold;
+    }
     if let Some(shading) = overrides.shading {
         scene.material.model = shading;
+    }
+    if let Some([least, most]) = overrides.samples {
+        let trace = &mut scene.trace;
+        (trace.pom_samples_min, trace.pom_samples_max) = (least, most);
+        // Techniques with one count for all angles take what the others take of a ray that grazes.
+        (trace.steep_layers, trace.relief_linear_steps) = (most, most);
+    }
+    if let Some(counts) = overrides.pom_counts {
+        scene.trace.pom_counts = counts;
+    }
+    if let Some(bias) = overrides.relief_depth_bias {
+        scene.trace.relief_depth_bias = bias;
+    }
+    if let Some(leaf) = overrides.pyramid_leaf {
+        scene.trace.pyramid_leaf = leaf;
     }
     if let Some(seed) = overrides.seed {
         scene.seed = seed;
     }
     if let Some(CameraPlacement { eye, target }) = overrides.camera {
-        scene.camera = Camera { eye, target, orbit_degrees_per_second: 0.0, ..scene.camera };
+        let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+        scene.camera = Camera { eye, target, ..still };
     }
     if let Some(fov) = overrides.vertical_fov_degrees {
         scene.camera.vertical_fov_degrees = fov;

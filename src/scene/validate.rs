@@ -6,8 +6,8 @@ use crate::surface::Albedo;
 use crate::surface::view::BALLS_MAX;
 
 use super::{
-    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace, VERSION, Wave,
-    check_text,
+    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace,
+    VERSION, Wave, check_text,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -18,11 +18,13 @@ pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low:
 const RADIANCE: Range = Range::from_to(0.0, 1e4, "");
 /// Half the angle that the light's disc spans. A wider one is no disc that a plane at right angles to its centre could stand for.
 pub const LIGHT_HALF_ANGLE_DEGREES: Range = Range::above(0.0, 15.0, "degrees");
+/// Samples, or layers, of a ray. More change no picture and stall a frame: these cross a field of 16,384 texels four times a texel.
+pub const SAMPLES_MAX: u32 = 65536;
 /// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
 pub const COURANT_SQUARED_MAX: f64 = 0.49;
 
-/// Samples of a search. More change no picture and stall a frame: 65,536 cross a field of 16,384 texels four times a texel.
-const SAMPLES: Range = Range::from_to(1.0, 65536.0, "samples");
+/// Samples of a search.
+const SAMPLES: Range = Range::from_to(1.0, SAMPLES_MAX as f64, "samples");
 
 /// Triangles of a micropolygon mesh: the plane's own two, and as many as fit the buffers that every adapter allows.
 const MESH_TRIANGLES: Range = Range::from_to(2.0, 8_388_608.0, "triangles");
@@ -105,10 +107,14 @@ impl Scene {
         }
         number("plane.width_metres", self.plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
         number("plane.depth_metres", self.plane.depth_metres, DEPTH_METRES)?;
+        // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
+        let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
+        numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
+        self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
         validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
@@ -147,7 +153,7 @@ fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} => Ok(()),
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
@@ -247,6 +253,10 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 }
 
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
+    number("trace.steep_layers", trace.steep_layers, Range::from_to(1.0, f64::from(SAMPLES_MAX), "layers"))?;
+    number("trace.relief_linear_steps", trace.relief_linear_steps, SAMPLES)?;
+    // f32 has 24 bits: further halvings find the same place.
+    number("trace.relief_binary_steps", trace.relief_binary_steps, Range::from_to(1.0, 24.0, "samples"))?;
     number("trace.pom_samples_min", trace.pom_samples_min, SAMPLES)?;
     number("trace.pom_samples_max", trace.pom_samples_max, SAMPLES)?;
     number("trace.mesh_triangles", trace.mesh_triangles, MESH_TRIANGLES)?;
@@ -324,12 +334,13 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
         "camera.orbit_degrees_per_second",
         camera.orbit_degrees_per_second,
         Range::from_to(-3600.0, 3600.0, "degrees per second"),
-    )
+    )?;
+    numbers("camera.fly_metres_per_second", &camera.fly_metres_per_second, Range::from_to(-1e4, 1e4, "metres per second"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Rain};
+    use super::super::{Boundary, Lod, Rain};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -343,6 +354,7 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
+            lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()
         }

@@ -23,7 +23,7 @@ pub struct Channel {
     pub uv: [f32; 2],
     /// Share of the light that arrives; 0 where the surface faces away from it.
     pub visibility: f32,
-    /// Level of detail: 0 is the full effect.
+    /// Level of detail: the mip level of the pixel, at which the surface was looked at; 0, the full effect, where it is off.
     pub lod: f32,
 }
 

@@ -45,10 +45,22 @@ choices! {
     Technique {
         /// Blinn's bump mapping: the surface stays where the polygon is, only its normal changes.
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
+        /// Parallax mapping: one sample says how far the texture shifts (\[Kaneko\]).
+        Parallax = "parallax", "trace_parallax", "Parallax (Kaneko)";
+        /// Parallax mapping whose shift is never longer than the surface is deep (\[Welsh\]).
+        ParallaxLimited = "parallax-limited", "trace_parallax_limited", "Parallax, limited (Welsh)";
+        /// Equal layers, and the first of them below the surface (\[Steep\]).
+        Steep = "steep", "trace_steep", "Steep parallax";
+        /// Relief mapping: a linear search, then a binary one (\[Policarpo\]).
+        Relief = "relief", "trace_relief", "Relief mapping (Policarpo)";
+        /// The linear search of parallax occlusion mapping alone (\[POM\] fig. 4).
+        PomLinear = "pom-linear", "trace_pom_linear", "POM, linear search alone";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
         /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
         Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
+        /// Pyramidal displacement mapping: down a pyramid of bounds to a column, then half a pixel's refinement (\[PDM\]).
+        Pyramid = "pyramid", "trace_pyramid", "Pyramidal displacement";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
@@ -93,6 +105,10 @@ choices! {
         Bronze = "bronze", "albedo_bronze", "Bronze";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A leopard's coat, dark toward the roots.
+        Fur = "fur", "albedo_fur", "Fur";
+        /// A lawn with daisies, dark toward the roots.
+        Grass = "grass", "albedo_grass", "Grass";
         /// A picture.
         Image = "image", "albedo_image", "Image";
         /// Rock, dust and ice of a planet without air.
@@ -127,12 +143,26 @@ pub enum Shows {
     Level = 6,
     /// How far the point that the technique found lies from the one of the exact traversal, as heat.
     Error = 7,
+    /// The mip level of the pixel, as heat.
+    MipLevel = 16,
+    /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
+    LodTint = 17,
 }
 
 impl Shows {
     /// Every view, in the order in which a key cycles them.
-    pub const ALL: &'static [Self] =
-        &[Self::Picture, Self::Height, Self::Normal, Self::UvOffset, Self::Visibility, Self::Steps, Self::Level, Self::Error];
+    pub const ALL: &'static [Self] = &[
+        Self::Picture,
+        Self::Height,
+        Self::Normal,
+        Self::UvOffset,
+        Self::Visibility,
+        Self::Steps,
+        Self::Level,
+        Self::Error,
+        Self::MipLevel,
+        Self::LodTint,
+    ];
 
     /// Its name on the command line.
     pub const fn name(self) -> &'static str {
@@ -145,6 +175,8 @@ impl Shows {
             Self::Steps => "steps",
             Self::Level => "pyramid-level",
             Self::Error => "error",
+            Self::MipLevel => "mip-level",
+            Self::LodTint => "lod-tint",
         }
     }
 
@@ -152,9 +184,9 @@ impl Shows {
     pub fn heat_top(self, gain: f32) -> Option<f32> {
         match self {
             Self::Steps => Some(Self::STEPS_TOP as f32),
-            Self::Level => Some(Self::LEVELS_TOP as f32),
+            Self::Level | Self::MipLevel => Some(Self::LEVELS_TOP as f32),
             Self::Error => Some(1.0 / gain),
-            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset => None,
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LodTint => None,
         }
     }
 
@@ -162,11 +194,11 @@ impl Shows {
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Steps => "height samples or nodes",
-            Self::Level => "levels",
+            Self::Level | Self::MipLevel => "levels",
             Self::Error => "texels",
             Self::Height => "of the depth",
             Self::Visibility => "of the light",
-            Self::Picture | Self::Normal | Self::UvOffset => "",
+            Self::Picture | Self::Normal | Self::UvOffset | Self::LodTint => "",
         }
     }
 
@@ -192,6 +224,8 @@ impl Shows {
             Self::Steps => "Steps a pixel",
             Self::Level => "Level of the pyramid",
             Self::Error => "Error against exact",
+            Self::MipLevel => "Mip level",
+            Self::LodTint => "Level of detail in blue",
         }
     }
 }

@@ -5,6 +5,7 @@ pub mod channels;
 pub mod choice;
 pub mod display;
 pub mod facet;
+pub mod level_of_detail;
 pub mod light_probe;
 pub mod micropolygon;
 pub mod probe;
@@ -94,9 +95,11 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "common/field",
         sampled,
         "surface/frame",
+        "surface/level_of_detail",
         "surface/ray_map",
         "surface/traversal",
         "surface/light_disc",
+        "surface/march",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -113,9 +116,15 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Bronze | Albedo::Image | Albedo::Planet | Albedo::Terrain | Albedo::Water | Albedo::Glass => {
-            Vec::new()
-        }
+        Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
+        Albedo::Plain
+        | Albedo::Bronze
+        | Albedo::Fur
+        | Albedo::Image
+        | Albedo::Planet
+        | Albedo::Terrain
+        | Albedo::Water
+        | Albedo::Glass => Vec::new(),
     }
 }
 

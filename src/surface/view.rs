@@ -7,6 +7,7 @@ use crate::field::base;
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
+use super::level_of_detail::ViewDetail;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
 use super::{Display, micropolygon};
 
@@ -56,6 +57,13 @@ pub struct View {
     pub pom_samples_max: f32,
     pub shadow_samples: f32,
     pub shadow_strength: f32,
+    pub pom_counts: u32,
+    pub steep_layers: f32,
+    pub relief_linear_steps: f32,
+    pub relief_binary_steps: u32,
+    pub relief_depth_bias: u32,
+    pub pyramid_leaf: u32,
+    pub pad_trace: [u32; 2],
     pub u_world: [f32; 3],
     pub first_row: u32,
     pub v_world: [f32; 3],
@@ -97,6 +105,9 @@ pub struct View {
     pub forward_world: [f32; 3],
     pub pad_forward: u32,
     pub balls: [Ball; BALLS_MAX],
+    pub repeat: [f32; 2],
+    pub pad_repeat: [f32; 2],
+    pub detail: ViewDetail,
 }
 
 impl View {
@@ -133,6 +144,13 @@ impl View {
             pom_samples_max: scene.trace.pom_samples_max as f32,
             shadow_samples: scene.trace.shadow_samples as f32,
             shadow_strength: scene.trace.shadow_strength,
+            pom_counts: scene.trace.pom_counts as u32,
+            steep_layers: scene.trace.steep_layers as f32,
+            relief_linear_steps: scene.trace.relief_linear_steps as f32,
+            relief_binary_steps: scene.trace.relief_binary_steps,
+            relief_depth_bias: u32::from(scene.trace.relief_depth_bias),
+            pyramid_leaf: scene.trace.pyramid_leaf as u32,
+            pad_trace: [0; 2],
             displaced_depth: u32::from(scene.trace.displaced_depth),
             mesh_quads: micropolygon::pieces(scene.trace.mesh_triangles, 2),
             eye_world: eye.as_vec3().to_array(),
@@ -167,6 +185,8 @@ impl View {
             near_metres: camera.near_metres as f32,
             forward_world: camera.forward().as_vec3().to_array(),
             balls,
+            repeat: scene.plane.repeat.map(|times| times as f32),
+            detail: ViewDetail::new(scene),
             ..Self::default()
         };
         view.over(camera, &target)
@@ -245,6 +265,7 @@ impl ViewSet {
             address_mode_v: address_mode,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
+            // Between levels as well as texels: what is read at a level of detail moves smoothly with it.
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });

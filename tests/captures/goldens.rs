@@ -7,7 +7,7 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 10] = [
+const GOLDENS: [(&str, &[&str]); 12] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("relief", &["--scene", "relief"]),
@@ -17,6 +17,8 @@ const GOLDENS: [(&str, &[&str]); 10] = [
     ("depth-image", &["--scene", "depth-image", "--warmup", "40", "--field", "320x256"]),
     ("cube", &["--scene", "cube"]),
     ("planet", &["--scene", "planet", "--field", "256x128"]),
+    ("fur", &["--scene", "fur"]),
+    ("grass", &["--scene", "grass", "--technique", "steep"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
 ];
 

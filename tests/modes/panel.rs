@@ -61,7 +61,7 @@ fn names(harness: &Panels, role: Role) -> Vec<String> {
 
 #[test]
 fn every_slider_moves_its_value_and_its_reset_brings_it_back() {
-    for technique in [Technique::Pom, Technique::Exact] {
+    for technique in [Technique::Pom, Technique::Exact, Technique::Relief, Technique::Steep] {
         let mut scene = everything();
         scene.trace.technique = technique;
         if technique == Technique::Exact {
@@ -165,13 +165,17 @@ fn choices_are_made_and_reset() {
 
 #[test]
 fn every_choice_and_colour_has_a_name_and_a_reset() {
-    let harness = harness(everything());
-    let mut controls = names(&harness, Role::ComboBox);
-    controls.retain(|name| name != "Scene");
-    controls.extend(names(&harness, Role::ColorWell));
-    assert!(controls.len() >= 9, "{controls:?}");
-    for name in controls {
-        harness.get_by_role_and_label(Role::Button, &format!("Reset {name}"));
+    for &technique in Technique::ALL {
+        let mut scene = everything();
+        scene.trace.technique = technique;
+        let harness = harness(scene);
+        let mut controls = names(&harness, Role::ComboBox);
+        controls.retain(|name| name != "Scene");
+        controls.extend(names(&harness, Role::ColorWell));
+        assert!(controls.len() >= 9, "{controls:?}");
+        for name in controls {
+            harness.get_by_role_and_label(Role::Button, &format!("Reset {name}"));
+        }
     }
 }
 

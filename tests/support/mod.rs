@@ -8,4 +8,5 @@ pub mod lights;
 pub mod lit;
 pub mod rays;
 pub mod seen;
+pub mod techniques;
 pub mod tolerances;

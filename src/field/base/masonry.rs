@@ -36,16 +36,23 @@ fn pits(x: f64, y: f64) -> f64 {
     smoothstep(0.66, 0.80, fractal_noise(x * 210.0, y * 210.0, 18, 2))
 }
 
-/// Depth below the tops of the stones, metres.
-pub(super) fn cobbles_depth_metres(x: f64, y: f64) -> f64 {
+/// Depth below the tops of the stones, metres; where a field of this extent is a `tile` that repeats, a whole number fits it.
+pub(super) fn cobbles_depth_metres(x: f64, y: f64, tile: Option<[f64; 2]>) -> f64 {
     let spacing = f64::from(COBBLE_METRES);
-    let position = [x / spacing, y / spacing];
+    let cells = tile.map(|tile| tile.map(|extent| (extent / spacing).round().max(1.0)));
+    let scale = |axis: usize| tile.zip(cells).map_or(1.0 / spacing, |(tile, cells)| cells[axis] / tile[axis]);
+    let position = [x * scale(0), y * scale(1)];
+    let home_of = |cell: [i32; 2]| match cells {
+        Some(cells) => [0, 1].map(|axis| cell[axis].rem_euclid(cells[axis] as i32)),
+        None => cell,
+    };
     let home = position.map(|coordinate| coordinate.floor() as i32);
     let (mut nearest, mut second, mut stone) = (f64::INFINITY, f64::INFINITY, home);
     for dy in -1..=1 {
         for dx in -1..=1 {
-            let cell = [home[0] + dx, home[1] + dy];
-            let centre = |axis: usize, salt| f64::from(cell[axis]) + 0.5 + 0.55 * (hash_cell(cell, salt) - 0.5);
+            let at = [home[0] + dx, home[1] + dy];
+            let cell = home_of(at);
+            let centre = |axis: usize, salt| f64::from(at[axis]) + 0.5 + 0.55 * (hash_cell(cell, salt) - 0.5);
             let distance = (position[0] - centre(0, 41)).hypot(position[1] - centre(1, 42));
             if distance < nearest {
                 (second, nearest, stone) = (nearest, distance, cell);

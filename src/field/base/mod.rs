@@ -1,7 +1,8 @@
 //! Bases: the heights that a field starts from, made on the CPU once.
 //!
 //! Procedural bases are functions of the position in metres and of the seed, so that another field size is a finer look at the
-//! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl` and `…_cobble.wgsl`).
+//! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl`, `…_cobble.wgsl`
+//! and `…_grass.wgsl`).
 
 mod landscape;
 pub mod lettering;
@@ -11,15 +12,17 @@ mod ornament;
 mod outline;
 mod planet;
 pub mod still_life;
+mod strands;
 mod terrain;
 pub mod text;
 
 pub use lettering::{Lettering, LetteringError};
 pub use masonry::{BRICK_JOINT_METRES, BRICK_METRES, COBBLE_METRES};
 pub(crate) use noise::hash_cell;
+pub use strands::DAISY_METRES;
 
 use super::wave;
-use crate::scene::{Base, Boundary, Scene};
+use crate::scene::{Addressing, Base, Boundary, Scene};
 use landscape::Landscape;
 use masonry::{bricks_depth_metres, cobbles_depth_metres};
 use planet::Planet;
@@ -44,11 +47,17 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
     match &scene.base {
         Base::Flat { height: level } => Some(vec![*level; width as usize * height as usize]),
         Base::Bricks {} => Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y) / depth_metres)),
-        Base::Cobbles {} => Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y) / depth_metres)),
+        Base::Cobbles {} => {
+            // Where the field wraps, so do the stones.
+            let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());
+            Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y, tile) / depth_metres))
+        }
         Base::Terrain {} => {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
         }
+        Base::Fur {} => Some(strands::fur(scene.field.size, texel_metres, scene.seed)),
+        Base::Grass {} => Some(strands::grass(scene.field.size, texel_metres, scene.seed)),
         Base::Landscape {} => Some(Landscape::new(scene.seed).heights(scene.field.size)),
         Base::Planet {} => {
             let planet = Planet::new(scene.seed);

@@ -1,6 +1,6 @@
 //! What a row compares: a technique, a shadow, a number of samples.
 
-use crate::scene::Scene;
+use crate::scene::{PomCounts, Scene};
 use crate::surface::{Shadow, Technique};
 
 /// What a row compares.
@@ -46,15 +46,23 @@ impl Variant {
 /// Whether the technique takes a number of samples that can be chosen.
 pub fn has_samples(technique: Technique) -> bool {
     match technique {
-        Technique::Pom => true,
-        Technique::Normal | Technique::Exact | Technique::Mesh => false,
+        Technique::Steep | Technique::Relief | Technique::PomLinear | Technique::Pom => true,
+        Technique::Normal
+        | Technique::Parallax
+        | Technique::ParallaxLimited
+        | Technique::Pyramid
+        | Technique::Exact
+        | Technique::Mesh => false,
     }
 }
 
 /// The scene with so many samples for every view ray, whatever its angle.
 pub fn with_samples(mut scene: Scene, count: u32) -> Scene {
-    scene.trace.pom_samples_min = count;
-    scene.trace.pom_samples_max = count;
+    let trace = &mut scene.trace;
+    trace.pom_counts = PomCounts::Angle;
+    (trace.pom_samples_min, trace.pom_samples_max) = (count, count);
+    // The binary search of `relief` comes on top of its linear one.
+    (trace.steep_layers, trace.relief_linear_steps) = (count, count);
     scene
 }
 

@@ -4,6 +4,7 @@
 
 mod brush;
 mod camera;
+mod detail;
 mod keys;
 mod light;
 mod material;
@@ -12,6 +13,7 @@ mod simulation;
 mod split;
 mod style;
 mod surface;
+mod techniques;
 mod view;
 mod widgets;
 
@@ -189,6 +191,7 @@ impl Panel {
         self.scene_group(ui, actions);
         self.view_group(ui);
         self.surface_group(ui);
+        self.detail_group(ui);
         self.light_group(ui);
         self.material_group(ui);
         self.simulation_group(ui);

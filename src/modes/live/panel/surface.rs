@@ -2,8 +2,9 @@
 
 use egui::Ui;
 
-use super::Panel;
 use super::widgets::{Control, choice, group, value};
+use super::{Panel, techniques};
+use crate::scene::PomCounts;
 use crate::surface::{Shadow, Technique};
 
 impl Panel {
@@ -17,20 +18,7 @@ impl Panel {
             choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
             let depth = Control::new("Depth", " mm", 1.0, 500.0).scale(1e3).decimals(1);
             value(ui, &depth.tip("How far height 0 lies below the plane"), &mut plane.depth_metres, plane_was.depth_metres);
-            if trace.technique == Technique::Pom {
-                let tip = "Samples along a ray that meets the surface head-on ([POM] eq. 1)";
-                let control = Control::new("Samples, head-on", "", 1.0, 128.0).integer().tip(tip);
-                value(ui, &control, &mut trace.pom_samples_min, was.pom_samples_min);
-                let tip = "Samples along a ray that grazes the surface ([POM] eq. 1)";
-                let control = Control::new("Samples, grazing", "", 1.0, 512.0).integer().logarithmic().tip(tip);
-                value(ui, &control, &mut trace.pom_samples_max, was.pom_samples_max);
-                trace.pom_samples_max = trace.pom_samples_max.max(trace.pom_samples_min);
-            }
-            if trace.technique == Technique::Mesh {
-                let tip = "About how many micropolygons there are";
-                let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
-                value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
-            }
+            techniques::rows(ui, trace, was);
             if trace.shadow == Shadow::Area {
                 let tip = "Points of the light's disc, a ray each";
                 let control = Control::new("Shadow rays", "", 1.0, 1024.0).integer().logarithmic().tip(tip);
@@ -44,8 +32,12 @@ impl Panel {
                 let control = Control::new("Shadow strength", " ×", 0.0, 20.0).decimals(1).tip(tip);
                 value(ui, &control, &mut trace.shadow_strength, was.shadow_strength);
             }
-            if trace.technique == Technique::Exact || trace.shadow == Shadow::Hard {
-                let tip = "Nodes that one ray may visit before it gives up";
+            let counts_by_texels =
+                matches!(trace.technique, Technique::Pom | Technique::PomLinear) && trace.pom_counts == PomCounts::Texels;
+            let traverses = matches!(trace.technique, Technique::Pyramid | Technique::Exact)
+                || matches!(trace.shadow, Shadow::Hard | Shadow::Cone | Shadow::Area);
+            if traverses || counts_by_texels {
+                let tip = "Nodes that one ray may visit before it gives up, and the most samples by crossed texels";
                 let control = Control::new("Step cap", "", 16.0, 65536.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.step_cap, was.step_cap);
             }
