@@ -12,8 +12,8 @@ fn bronze_surroundings(direction: vec3f) -> vec3f {
 fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
     let metres = plane_metres(point.lattice);
-    let grain = fractal_noise(metres * 130.0, 81u);
-    let weather = fractal_noise(metres * 7.0, 85u);
+    let grain = noise_over(metres, 130.0, 81u);
+    let weather = noise_over(metres, 7.0, 85u);
     let level = smoothstep(0.55, 0.98, point.level);
     // Rubbed: the faces that stand out, and what a shot laid bare; rough edges of it keep some skin.
     let rubbed = max(smoothstep(0.72, 0.95, point.height + 0.10 * (grain - 0.5)) * mix(0.45, 1.0, level), stamped.g);

@@ -6,6 +6,9 @@
 
 fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
-    let colour = textureSampleLevel(albedo_map, bilinear, uv_of(point.lattice), 0.0).rgb;
+    // As fine as the pixel sees: the footprint in the image's own texels.
+    let seen = footprint.texels * vec2f(textureDimensions(albedo_map)) / vec2f(view.field_size);
+    let level = log2(max(max(seen.x, seen.y), 1.0));
+    let colour = textureSampleLevel(albedo_map, bilinear, uv_of(point.lattice), level).rgb;
     return sooty(mix(colour, 0.35 + 0.5 * colour, 0.6 * stamped.g), stamped.r);
 }

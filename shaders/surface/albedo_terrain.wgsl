@@ -5,9 +5,11 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
     // In widths of the plane: another plane is the same land, larger.
     let place = uv_of(point.lattice) * vec2f(1.0, view.plane_size_metres.y / view.plane_size_metres.x);
-    let fine = fractal_noise(place * 210.0, 91u);
-    let patch_noise = fractal_noise(place * 31.0, 95u);
-    let broad = fractal_noise(place * 7.0, 99u);
+    let per_width = 1.0 / view.plane_size_metres.x;
+    let metres = plane_metres(point.lattice);
+    let fine = noise_over(metres, 210.0 * per_width, 91u);
+    let patch_noise = noise_over(metres, 31.0 * per_width, 95u);
+    let broad = noise_over(metres, 7.0 * per_width, 99u);
     // Climate is ragged.
     let altitude = point.height + 0.10 * (patch_noise - 0.5) + 0.05 * (fine - 0.5);
 
