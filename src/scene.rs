@@ -13,7 +13,9 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shadow, Technique};
 
-pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera};
+pub use validate::{
+    COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera,
+};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::Verbosity;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, non_empty, shadow, shadow_help, size, technique, technique_help, whole_u64,
+    backend, camera, depth, field, fov, height_range, light_angle, non_empty, shadow, shadow_help, size, technique,
+    technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
@@ -57,6 +58,10 @@ pub struct CommonOptions {
     #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
     fov: Option<f64>,
 
+    /// Half the angle that the light's disc spans, degrees, for the shadows cone and area [default: the scene's]
+    #[arg(long, value_name = "DEGREES", value_parser = light_angle, allow_negative_numbers = true, help_heading = "Scene")]
+    light_angle: Option<f32>,
+
     /// Which machine, and how much it tells.
     #[command(flatten)]
     pub machine: MachineOptions,
@@ -75,6 +80,7 @@ impl CommonOptions {
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,
+            light_half_angle_degrees: self.light_angle,
         }
     }
 }

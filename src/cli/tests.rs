@@ -46,7 +46,7 @@ fn without_a_mode_it_is_live() {
 fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
-         --height-range -5,7.5 --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --adapter llvm --backend gl -v \
+         --height-range -5,7.5 --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --light-angle 2.5 --adapter llvm --backend gl -v \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
     assert_eq!(options.common.scene, "a.toml");
@@ -65,6 +65,7 @@ fn values_arrive() {
             seed: Some(u64::MAX),
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
+            light_half_angle_degrees: Some(2.5),
         }
     );
     assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));
@@ -128,6 +129,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("depth", "0 -1 nan inf x 1e9"),
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
         ("fov", "0 -45 180 nan inf x"),
+        ("light-angle", "0 -1 16 nan inf x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),

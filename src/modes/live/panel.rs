@@ -208,15 +208,23 @@ impl Panel {
                 value(ui, &control, &mut trace.pom_samples_max, was.pom_samples_max);
                 trace.pom_samples_max = trace.pom_samples_max.max(trace.pom_samples_min);
             }
-            if trace.shadow == Shadow::PomSoft {
-                let tip = "Samples along the ray to the light";
+            if matches!(trace.shadow, Shadow::PomSoft | Shadow::Steep) {
+                let tip = "Samples along the ray to the light; of steep shadows, layers of the whole depth";
                 let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
                 value(ui, &control, &mut trace.shadow_samples, was.shadow_samples);
+            }
+            if trace.shadow == Shadow::Area {
+                let tip = "Points of the light's disc to which a ray goes";
+                let control = Control::new("Light samples", "", 1.0, 512.0).integer().logarithmic().tip(tip);
+                value(ui, &control, &mut trace.area_samples, was.area_samples);
+            }
+            if trace.shadow == Shadow::PomSoft {
                 let tip = "How fast a blocker darkens";
                 let control = Control::new("Shadow strength", " ×", 0.0, 20.0).decimals(1).tip(tip);
                 value(ui, &control, &mut trace.shadow_strength, was.shadow_strength);
             }
-            if trace.technique == Technique::Exact || trace.shadow == Shadow::Hard {
+            let traverses = matches!(trace.shadow, Shadow::Hard | Shadow::Cone | Shadow::Area);
+            if trace.technique == Technique::Exact || traverses {
                 let tip = "Nodes that one ray may visit before it gives up";
                 let control = Control::new("Step cap", "", 16.0, 65536.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.step_cap, was.step_cap);
@@ -240,6 +248,9 @@ impl Panel {
             value(ui, &control, &mut light.azimuth_degrees, was.azimuth_degrees);
             let control = Control::new("Elevation", "°", 1.0, 90.0).decimals(0).tip("How high it stands above the plane");
             value(ui, &control, &mut light.elevation_degrees, was.elevation_degrees);
+            let tip = "Half the angle that its disc spans: how soft cone and area shadows are";
+            let control = Control::new("Half-angle", "°", 0.05, 15.0).logarithmic().tip(tip);
+            value(ui, &control, &mut light.half_angle_degrees, was.half_angle_degrees);
             let control = Control::new("Turn", "°/s", -90.0, 90.0).decimals(0).tip("How fast it travels round the vertical");
             value(ui, &control, &mut light.turn_degrees_per_second, was.turn_degrees_per_second);
             let control = Control::new("Intensity", " ×", 0.0, 10.0).tip("Radiance of a white surface that faces it");
