@@ -23,7 +23,10 @@ pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
-pub use validate::{COURANT_SQUARED_MAX, DEPTH_METRES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES, check_camera};
+pub use validate::{
+    COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES,
+    check_camera,
+};
 
 /// The version of the scene format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -16,7 +16,7 @@ use rilievo::surface::{Shadow, Shows, Technique};
 
 use crate::captures::capture;
 use crate::support::gpu::gpu;
-use crate::support::tolerances::{EXACT_BUDGET, FIRST_PICTURE};
+use crate::support::tolerances::{CONE_BUDGET, EXACT_BUDGET, FIRST_PICTURE};
 
 /// `relief` at 640×480 without shadows, and its frame.
 struct Relief {
@@ -35,9 +35,14 @@ impl Relief {
         let heights = base::heights(&scene).expect("a terrain is procedural");
         let image = HeightImage { size: scene.field.size, heights }.resampled([size, size], Addressing::Clamp);
         scene.field.size = [size, size];
+        Self::of(gpu, &scene, image.heights)
+    }
+
+    /// A still scene that starts from these heights.
+    fn of(gpu: &Gpu, scene: &Scene, heights: Vec<f32>) -> Self {
         let image_size = [640, 480];
         let mut frame =
-            Frame::new(gpu, &Start::new(&scene, image.heights, None), image_size, PICTURE_FORMAT).expect("its shaders compile");
+            Frame::new(gpu, &Start::new(scene, heights, None), image_size, PICTURE_FORMAT).expect("its shaders compile");
         frame.timer = Timer::alone(gpu, milliseconds_when_idle);
         Self { frame, picture: Picture::new(gpu, image_size), camera: Camera::at(&scene.camera, 0.0) }
     }
@@ -83,6 +88,28 @@ fn exact_costs_at_most_four_times_normal() {
     let [normal, exact] = medians(gpu, &mut reliefs, 50)[..] else { unreachable!("two reliefs have two medians") };
     println!("relief 640×480 over 1024²: normal {normal:.1} ms, exact {exact:.1} ms, {:.2} times", exact / normal);
     assert!(exact <= EXACT_BUDGET * normal, "{exact} ms of {normal} ms");
+}
+
+/// The project's bar, on the terrain, of the whole surface pass; what the shadows alone cost is printed.
+#[test]
+fn a_cone_shadow_costs_at_most_twice_a_hard_one() {
+    let Some(gpu) = gpu() else { return };
+    for half_angle_degrees in [1.0, 3.0, 5.0] {
+        let mut reliefs = [Shadow::None, Shadow::Hard, Shadow::Cone].map(|shadow| {
+            let mut scene = Scene { base: Base::Terrain {}, ..Scene::default() };
+            scene.trace.shadow = shadow;
+            scene.light.half_angle_degrees = half_angle_degrees;
+            let heights = base::heights(&scene).expect("a terrain is procedural");
+            Relief::of(gpu, &scene, heights)
+        });
+        let [none, hard, cone] = medians(gpu, &mut reliefs, 15)[..] else { unreachable!("three reliefs have three medians") };
+        let (pass, alone) = (cone / hard, (cone - none) / (hard - none));
+        println!(
+            "relief 640×480, {half_angle_degrees}°: none {none:.1} ms, hard {hard:.1} ms, cone {cone:.1} ms, {pass:.2} times hard, \
+             the shadow alone {alone:.2} times"
+        );
+        assert!(pass <= CONE_BUDGET, "{cone} ms of {hard} ms");
+    }
 }
 
 /// Printed, not held: [PDM] fig. 21 has a whole frame grow by 1.28 from 256² to 2048².

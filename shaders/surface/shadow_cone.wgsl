@@ -8,12 +8,11 @@
 // horizon is found by one traversal whose ray only ever climbs faster: it begins at the foot of the slice, rises to the top of
 // whatever stands in its way, and is done when it reaches the head of the slice (dark) or leaves the highest bound behind.
 //
-// Three slices, and the middle one first, which most receivers are done with: on its way it also looks at the nodes beside its
-// own, as far as the disc's wedge reaches. Where nothing on the whole way stands up into the wedge the light is free.
-// Otherwise the slices at its sides begin where the first thing does. Nearer than where the wedge reaches half a texel from its
-// middle the sides matter only if the middle meets something there.
+// Three slices; but most receivers need none. Nearer than where the wedge between disc and receiver reaches half a texel from its
+// middle, the middle's horizon tells; from there on a search through coarser nodes, as wide as the wedge. Where nothing stands up
+// into it the light is free, and otherwise the slices begin where the first thing does.
 //
-// One slice alone has 2.5 times the error where walls stand askew or posts are thinner than the cone, two cost as much as this.
+// One slice alone has 2.5 times the error where walls stand askew or posts are thinner than the wedge.
 //
 // Specification: src/reference/shadow_cone.rs. Needs surface/traversal and surface/light_disc.
 
@@ -23,17 +22,11 @@ const SHADOW_CONE_NEAR: f32 = 0.5;
 // Largest `lean` of a disc: nearer to the zenith azimuths turn within it, and no slice is upright. There the light is tilted.
 const SHADOW_CONE_LEAN: f32 = 0.9;
 
-// How the middle slice looks at its sides.
-struct ShadowConeFlank {
-    watched: bool,
-    side: vec2i,   // one node along the axis on which the ray is slower
-    spread: f32,   // lattice distance along that axis from the middle of the wedge to its edge, while t grows by 1
-    ahead: f32,    // share of t by which a side may have got ahead of the middle
-}
-
-struct ShadowConeHorizon {
-    climb: f32,  // of the slowest ray that is free, in units of the centre's
-    begin: f32,  // t at which something first stands up into the wedge; TRAVERSAL_NEVER where nothing does
+// The way of the wedge between the disc and the receiver.
+struct ShadowConeWedge {
+    side: vec2i,   // one node along the axis on which its middle is slower
+    spread: f32,   // lattice distance along that axis from its middle to its edge, while t grows by 1
+    ahead: f32,    // share of t by which its edge may be ahead of its middle
 }
 
 // The disc, tilted if it holds the zenith or nearly so.
@@ -81,73 +74,75 @@ fn shadow(ray: Ray) -> f32 {
     let dips = 1.0 - disc.climb < disc.lowest;
     let horizon = select(-1.0, min((disc.lowest - 1.0) / disc.climb, 1.0), dips);
 
-    let major_v = abs(disc.travel.y) > abs(disc.travel.x);
-    let major = select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), major_v);
-    let ahead = dot(disc.across, major) / dot(disc.travel, major);
-    let skewed = disc.across - ahead * disc.travel;
-    let spread = abs(dot(skewed, 1.0 - major));
-    var flank = ShadowConeFlank(true, vec2i(1.0 - major), spread, abs(ahead));
-
+    // Near the receiver the wedge is narrow, and its middle stands for all of it.
+    let wedge = shadow_cone_wedge(disc);
+    let t_near = SHADOW_CONE_NEAR / max(wedge.spread, 1e-20);
+    let lowest = shadow_cone_climb(disc, horizon);
+    let close = shadow_cone_horizon(ray, start, disc.travel, 0.0, t_near, lowest, shadow_cone_climb(disc, 1.0));
     var begin = 0.0;
+    if close <= lowest {
+        begin = shadow_cone_search(ray, start, disc.travel, wedge, t_near, lowest);
+        if begin == TRAVERSAL_NEVER && !dips {
+            return 1.0;
+        }
+    }
+
     var seen = 0.0;
-    // The middle, then either side.
     for (var slice = 0; slice < SHADOW_CONE_SLICES; slice++) {
         let inner = select(1.0 / 3.0, 0.0, slice == 0);
         let outer = select(1.0, 1.0 / 3.0, slice == 0);
         let b = select(select(-2.0, 2.0, slice == 1) / 3.0, 0.0, slice == 0);
         let head = sqrt(1.0 - inner * inner);
-        let foot = max(-head, horizon);
-        var found = ShadowConeHorizon(shadow_cone_climb(disc, foot), TRAVERSAL_NEVER);
-        if foot < head {
-            let top = shadow_cone_climb(disc, head);
-            found = shadow_cone_horizon(ray, start, disc.travel + b * disc.across, begin, found.climb, top, flank);
-        }
-        if slice == 0 {
-            begin = found.begin;
-            if begin == TRAVERSAL_NEVER && !dips {
-                return 1.0;
-            }
-            flank.watched = false;
-        }
-        let share = shadow_cone_share(inner, outer, clamp(shadow_cone_point(disc, found.climb), -1.0, 1.0));
+        let foot = clamp(horizon, -head, head);
+        let climb = shadow_cone_horizon(
+            ray, start, disc.travel + b * disc.across, begin, TRAVERSAL_NEVER, shadow_cone_climb(disc, foot), shadow_cone_climb(disc, head),
+        );
+        let share = shadow_cone_share(inner, outer, clamp(shadow_cone_point(disc, climb), max(horizon, -1.0), 1.0));
         seen += select(1.0, 2.0, slice == 0) * share;
     }
     return clamp(seen, 0.0, 1.0);
 }
 
-// The horizon of a slice, from t_begin on: `climb` raised by all that stands in the way, to no more than `top`.
-fn shadow_cone_horizon(
-    ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, foot: f32, top: f32, flank: ShadowConeFlank,
-) -> ShadowConeHorizon {
+fn shadow_cone_wedge(disc: LightDisc) -> ShadowConeWedge {
+    let major = select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), abs(disc.travel.y) > abs(disc.travel.x));
+    let ahead = dot(disc.across, major) / dot(disc.travel, major);
+    let skewed = disc.across - ahead * disc.travel;
+    return ShadowConeWedge(vec2i(1.0 - major), abs(dot(skewed, 1.0 - major)), abs(ahead));
+}
+
+fn shadow_cone_way(travel: vec2f) -> TraversalWay {
+    let backward = travel < vec2f(0.0);
+    let toward = select(vec2i(1), vec2i(-1), backward);
+    return TraversalWay(vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1);
+}
+
+fn shadow_cone_place(ray: Ray, travel: vec2f, way: TraversalWay, t: f32, level: i32) -> TraversalPlace {
+    let lattice = ray.lattice + t * travel;
+    let cell = vec2i(select(floor(lattice), ceil(lattice) - 1.0, way.backward)) + ray.cell;
+    if !way.wraps {
+        return TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
+    }
+    let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
+    return TraversalPlace(cell - tile, tile - ray.cell, level);
+}
+
+// The horizon of a slice between two t: `foot` raised by all that stands in the way, to no more than `top`. All three are climbs in
+// units of the centre's.
+fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, t_stop: f32, foot: f32, top: f32) -> f32 {
     let highest = traversal_highest();
     var climb = foot;
-    var begin = TRAVERSAL_NEVER;
-    if start >= highest || t_begin >= TRAVERSAL_NEVER {
-        return ShadowConeHorizon(climb, begin);
+    var t = t_begin;
+    var t_end = min((highest - start) / climb, t_stop);
+    if t >= t_end || climb >= top {
+        return climb;
     }
     let still = abs(slice_travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(slice_travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(slice_travel, vec2f(TRAVERSAL_STILL), still);
-    let backward = travel < vec2f(0.0);
-    let way = TraversalWay(
-        vec2i(view.field_size), view.wrap != 0u, backward, select(vec2i(1), vec2i(-1), backward),
-        i32(textureNumLevels(pyramid)) - 1,
-    );
-    let t_near = SHADOW_CONE_NEAR / max(flank.spread, 1e-20);
-    var watched = flank.watched;
-    var t_end = (highest - start) / climb;
-
-    let first_at = ray.lattice + t_begin * travel;
+    let way = shadow_cone_way(travel);
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
     let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
-    let cell = vec2i(select(floor(first_at), ceil(first_at) - 1.0, backward)) + ray.cell;
-    var place = TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
-    if way.wraps {
-        let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
-        place = TraversalPlace(cell - tile, tile - ray.cell, level);
-    }
-
-    var t = t_begin;
+    var place = shadow_cone_place(ray, travel, way, t_begin, level);
     var steps = 0u;
     while t < t_end {
         // On to the next cell whose bound is above the ray; see surface/traversal.
@@ -160,89 +155,117 @@ fn shadow_cone_horizon(
             let last_node = traversal_nodes(way, place.level) - 1;
             let node = traversal_node(way, place, place.level);
             let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
-            let outermost = node == select(last_node, vec2i(-1), backward);
-            let border = select((node + select(vec2i(1), vec2i(0), backward)) << scale, way.cells, outermost);
+            let outermost = node == select(last_node, vec2i(-1), way.backward);
+            let border = select((node + select(vec2i(1), vec2i(0), way.backward)) << scale, way.cells, outermost);
             let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
             let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
             t_out = max(t, min(min(t_border.x, t_border.y), t_end));
             crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
-
-            let first = max(node << scale, vec2i(-1));
-            let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
-            let height = start + climb * t;
-            var enters = height <= bound;
-            if watched && t_out > t_near {
-                let width = flank.spread * t_out;
-                let size = f32(1u << u32(place.level));
-                if size < width && place.level < way.top {
-                    // Too small for its neighbours to show the whole wedge.
-                    place.level += 1;
-                    continue;
-                }
-                let rises = enters || shadow_cone_flanks(ray, travel, way, place, flank, node, first, last, t, t_out, width, height);
-                if rises && (place.level == 0 || size <= 2.0 * width) {
-                    begin = select(t * max(1.0 - flank.ahead, 0.0), 0.0, t < t_near);
-                    watched = false;
-                } else {
-                    enters = rises;
-                }
-            }
+            let enters = start + climb * t <= bound;
             arrived = enters && place.level == 0;
             if !arrived {
                 if !enters && t_out >= t_end {
-                    return ShadowConeHorizon(climb, begin);
+                    return climb;
                 }
                 t = select(t_out, t, enters);
+                let first = max(node << scale, vec2i(-1));
+                let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
                 let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
                 if enters {
                     place = TraversalPlace(there, place.tile, place.level - 1);
                 } else {
-                    place = traversal_across(way, place, select(there, select(last, first, backward), crosses), crosses);
+                    place = traversal_across(way, place, select(there, select(last, first, way.backward), crosses), crosses);
                 }
             }
         }
         if !arrived {
             // It gave up, and counts as dark.
-            return ShadowConeHorizon(top, min(begin, t));
+            return top;
         }
-        let needed = shadow_cone_leaf(ray, travel, way, place, start, t, t_out);
-        if needed > climb {
-            climb = needed;
-            begin = min(begin, select(t * max(1.0 - flank.ahead, 0.0), 0.0, t < t_near));
-            watched = false;
-            if climb >= top {
-                return ShadowConeHorizon(top, begin);
-            }
-            t_end = (highest - start) / climb;
+        climb = max(climb, shadow_cone_leaf(ray, travel, way, place, start, t, t_out));
+        if climb >= top {
+            return top;
         }
+        t_end = min((highest - start) / climb, t_stop);
         t = t_out;
         place = traversal_across(way, place, place.cell, crosses);
     }
-    return ShadowConeHorizon(climb, begin);
+    return climb;
 }
 
-// Whether a node beside the ray's own, into which the wedge reaches, has a bound above the ray.
-fn shadow_cone_flanks(
-    ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, flank: ShadowConeFlank,
-    node: vec2i, first: vec2i, last: vec2i, t: f32, t_out: f32, width: f32, height: f32,
-) -> bool {
-    let axis = vec2f(flank.side);
-    let origin = dot(axis, ray.lattice - vec2f(place.tile));
-    let enter = origin + t * dot(axis, travel);
-    let leave = origin + t_out * dot(axis, travel);
-    let last_node = traversal_nodes(way, place.level) - 1;
-    var rises = false;
-    if min(enter, leave) - width < dot(axis, vec2f(first)) {
-        let below = node - flank.side;
-        let beside = select(max(below, vec2i(0)), select(below, last_node, below < vec2i(0)), vec2<bool>(way.wraps));
-        rises = height <= textureLoad(pyramid, beside, place.level).r + TRAVERSAL_SLACK;
+// From which t on something may stand up into the wedge, looking from t_begin on; TRAVERSAL_NEVER where nothing does.
+//
+// Its nodes are as wide as half the wedge or wider, and seen with their neighbours. Beside its middle a ray of the wedge may be over
+// the same place at a smaller t, and so lower.
+fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowConeWedge, t_begin: f32, climb: f32) -> f32 {
+    let behind = max(1.0 - wedge.ahead, 0.1);
+    let t_end = (traversal_highest() - start) / (climb * behind);
+    let still = abs(middle_travel) < vec2f(TRAVERSAL_STILL);
+    let travel = select(middle_travel, vec2f(0.0), still);
+    let per_travel = 1.0 / select(middle_travel, vec2f(TRAVERSAL_STILL), still);
+    let way = shadow_cone_way(travel);
+    let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
+    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
+    let axis = vec2f(wedge.side);
+    var place = shadow_cone_place(ray, travel, way, t_begin, level);
+    var t = t_begin;
+    var steps = 0u;
+    while t < t_end {
+        steps += 1u;
+        if steps > view.step_cap {
+            return t;
+        }
+        let scale = vec2u(u32(place.level));
+        let last_node = traversal_nodes(way, place.level) - 1;
+        let node = traversal_node(way, place, place.level);
+        let outermost = node == select(last_node, vec2i(-1), way.backward);
+        let border = select((node + select(vec2i(1), vec2i(0), way.backward)) << scale, way.cells, outermost);
+        let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
+        let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+        let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
+        let crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
+        let first = max(node << scale, vec2i(-1));
+        let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
+
+        let width = wedge.spread * t_out;
+        let size = f32(1u << u32(place.level));
+        if size < width && place.level < way.top {
+            place.level += 1;
+            continue;
+        }
+        // The nodes that the wedge reaches into from this one.
+        let origin = dot(axis, ray.lattice - vec2f(place.tile));
+        let enter = origin + t * dot(axis, travel);
+        let leave = origin + t_out * dot(axis, travel);
+        let below = select(vec2i(0), wedge.side, min(enter, leave) - width < dot(axis, vec2f(first)));
+        let above = select(vec2i(0), wedge.side, max(enter, leave) + width > dot(axis, vec2f(last + 1)));
+        let bound = max(
+            textureLoad(pyramid, max(node, vec2i(0)), place.level).r,
+            max(
+                textureLoad(pyramid, shadow_cone_beside(way, max(node, vec2i(0)) - below, last_node), place.level).r,
+                textureLoad(pyramid, shadow_cone_beside(way, max(node, vec2i(0)) + above, last_node), place.level).r,
+            ),
+        ) + TRAVERSAL_SLACK;
+        let rises = start + climb * behind * t <= bound;
+        if rises && (place.level == 0 || size <= 2.0 * width) {
+            return max(behind * t, t_begin);
+        }
+        t = select(t_out, t, rises);
+        let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
+        if rises {
+            place = TraversalPlace(there, place.tile, place.level - 1);
+        } else {
+            place = traversal_across(way, place, select(there, select(last, first, way.backward), crosses), crosses);
+        }
     }
-    if max(enter, leave) + width > dot(axis, vec2f(last + 1)) {
-        let above = max(node, vec2i(0)) + flank.side;
-        let beside = select(min(above, last_node), select(above, vec2i(0), above > last_node), vec2<bool>(way.wraps));
-        rises = rises || height <= textureLoad(pyramid, beside, place.level).r + TRAVERSAL_SLACK;
-    }
-    return rises;
+    return TRAVERSAL_NEVER;
+}
+
+// A node, or what lies there where the field ends.
+fn shadow_cone_beside(way: TraversalWay, node: vec2i, last_node: vec2i) -> vec2i {
+    let inside = clamp(node, vec2i(0), last_node);
+    let wrapped = select(select(node, last_node, node < vec2i(0)), vec2i(0), node > last_node);
+    return select(inside, wrapped, vec2<bool>(way.wraps));
 }
 
 // How fast a ray must climb from the start to clear the surface in a cell, from t_in to t_out.

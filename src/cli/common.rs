@@ -7,9 +7,9 @@ use clap::Args;
 use super::Verbosity;
 use super::display::DisplayOptions;
 use super::values::{
-    Detail, backend, camera, depth, field, fov, height_range, lod, mesh, non_empty, pom_counts, pom_counts_help, pyramid_leaf,
-    pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size, switch, technique, technique_help,
-    whole_u64,
+    Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, non_empty, pom_counts, pom_counts_help,
+    pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size, switch, technique,
+    technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
@@ -110,6 +110,10 @@ pub struct CommonOptions {
     #[arg(long, value_name = "DEGREES", value_parser = fov, allow_negative_numbers = true, help_heading = "Scene")]
     fov: Option<f64>,
 
+    /// Half the angle that the light's disc spans, degrees, for the shadows cone and area [default: the scene's]
+    #[arg(long, value_name = "DEGREES", value_parser = light_angle, allow_negative_numbers = true, help_heading = "Scene")]
+    light_angle: Option<f32>,
+
     /// What is shown of it.
     #[command(flatten)]
     pub display: DisplayOptions,
@@ -144,6 +148,7 @@ impl CommonOptions {
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,
+            light_half_angle_degrees: self.light_angle,
         }
     }
 }

@@ -49,7 +49,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --albedo c.png --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --adapter llvm --backend gl -v \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --light-angle 2.5 --adapter llvm --backend gl -v \
          --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -81,6 +81,7 @@ fn values_arrive() {
             mesh: Some(MeshSource::Shape(Shape::Torus)),
             shell: true,
             displaced_depth: true,
+            light_half_angle_degrees: Some(2.5),
         }
     );
     let overrides = capture("--text Two\\nlines --font f.ttf").common.overrides();
@@ -163,6 +164,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("level-cap", "-1 1.5 32 x"),
         ("fov", "0 -45 180 nan inf x"),
         ("lod", "-1 17 nan on x"),
+        ("light-angle", "0 -1 16 nan inf x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),

@@ -229,6 +229,11 @@ pub(super) fn fov(text: &str) -> Result<f64, String> {
     number_within(text, scene::VERTICAL_FOV_DEGREES)
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "the light is f32 throughout")]
+pub(super) fn light_angle(text: &str) -> Result<f32, String> {
+    number_within(text, scene::LIGHT_HALF_ANGLE_DEGREES).map(|number| number as f32)
+}
+
 pub(super) fn dt(text: &str) -> Result<f64, String> {
     // An hour a frame: beyond it a simulation that keeps its own step would seem to hang.
     number_within(text, scene::Range::above(0.0, 3600.0, "seconds"))

@@ -95,6 +95,8 @@ pub struct SceneOverrides {
     pub camera: Option<CameraPlacement>,
     /// Vertical field of view, degrees.
     pub vertical_fov_degrees: Option<f64>,
+    /// Half the angle that the light's disc spans, degrees.
+    pub light_half_angle_degrees: Option<f32>,
 }
 
 /// A scene that is ready to run: checked, its images and its font read.
@@ -393,6 +395,9 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     }
     if let Some(fov) = overrides.vertical_fov_degrees {
         scene.camera.vertical_fov_degrees = fov;
+    }
+    if let Some(half_angle) = overrides.light_half_angle_degrees {
+        scene.light.half_angle_degrees = half_angle;
     }
     Ok(())
 }
