@@ -27,7 +27,10 @@ fn a_field_of_ones_looks_the_same_with_every_technique() {
     let pictures: Vec<_> = pictures.collect();
     assert!(pictures[0].iter().any(|value| *value > 60), "the plane is in the picture");
     for (technique, picture) in Technique::ALL.iter().zip(&pictures) {
-        assert!(*picture == pictures[0], "{technique:?}");
+        // The mesh is blended over the background in half floats, where the others mix before they round.
+        let levels = if *technique == Technique::Mesh { 1 } else { 0 };
+        let most = picture.iter().zip(&pictures[0]).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(most <= Some(levels), "{technique:?}: {most:?}");
     }
 }
 
