@@ -41,7 +41,8 @@ impl Camera {
 
     /// The camera of a scene, `time_seconds` after its start.
     pub fn at(scene: &scene::Camera, time_seconds: f64) -> Self {
-        let (eye, target) = (DVec3::from(scene.eye), DVec3::from(scene.target));
+        let flown = DVec3::from(scene.fly_metres_per_second) * time_seconds;
+        let (eye, target) = (DVec3::from(scene.eye) + flown, DVec3::from(scene.target) + flown);
         let angle = (scene.orbit_degrees_per_second * time_seconds).rem_euclid(360.0).to_radians();
         Self::look_at(turn_about(eye, target, angle), target, scene.vertical_fov_degrees.to_radians(), scene.near_metres)
     }

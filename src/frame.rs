@@ -1,22 +1,25 @@
 //! One frame: from what was asked to radiance, top to bottom. [`Frame::record`] is the table of contents.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::camera::Camera;
 use crate::clock::Tick;
 use crate::field::bins::BinError;
 use crate::field::compose::{Compose, ComposeSet};
+use crate::field::normal_mips::{NormalMips, NormalMipsSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
 use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
-use crate::field::{Dirty, Field, Region, base, compose, normals, pyramid, stamp};
+use crate::field::{Dirty, Field, Region, base, compose, normal_mips, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
+use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Albedo, Shadow, Shows, Surface, Technique, View, ViewSet, view};
+use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +30,14 @@ pub struct Start {
     pub heights: Vec<f32>,
     /// As many texels of [`crate::field::Material`].
     pub material: Vec<u32>,
+    /// The mesh that carries the relief; none: the plane.
+    pub mesh: Option<Mesh>,
 }
 
 impl Start {
-    /// The start of a scene whose base has these heights.
-    pub fn new(scene: &Scene, heights: Vec<f32>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights };
+    /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
+    pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = base::POST_MATERIAL;
@@ -50,8 +55,15 @@ pub struct FrameInput<'a> {
     pub strokes: &'a Strokes,
     /// Where it is seen from.
     pub camera: &'a Camera,
-    /// What the picture shows.
-    pub shows: Shows,
+    /// What is shown of it: the picture or a view, and what is beside it.
+    pub display: Display,
+}
+
+impl<'a> FrameInput<'a> {
+    /// What is seen of a scene.
+    pub fn seen(&self, scene: &'a Scene) -> Seen<'a> {
+        Seen { scene, camera: self.camera, time_seconds: self.tick.time_seconds, display: self.display }
+    }
 }
 
 /// Why there is no frame.
@@ -90,6 +102,8 @@ pub struct Frame {
     scene: Scene,
     view_layout: BindingLayout,
     view_set: ViewSet,
+    /// The view of the right side, where the picture is split.
+    right_view_set: ViewSet,
     waves: Option<(Waves, WaveSet)>,
     stamps: Stamps,
     stamp_set: StampSet,
@@ -97,10 +111,17 @@ pub struct Frame {
     compose_set: ComposeSet,
     normals: Normals,
     normals_set: NormalsSet,
+    normal_mips: NormalMips,
+    normal_mips_set: NormalMipsSet,
     pyramid: Pyramid,
     pyramid_set: PyramidSet,
     /// One for each choice that was ever shown: switching back costs nothing.
-    surfaces: HashMap<(Technique, Shadow, Albedo), (Surface, SurfaceSet)>,
+    surfaces: HashMap<Choice, (Surface, SurfaceSet)>,
+    /// What is seen beside and instead of the bare plane; none where the plane is all.
+    stage: Option<Stage>,
+    mesh: Option<Mesh>,
+    /// The display whose pipelines were built last.
+    built_for: Option<Display>,
     present: Present,
     radiance: Texture<Radiance>,
     present_set: PresentSet,
@@ -129,7 +150,7 @@ impl Frame {
         check_limits(gpu, &scene, image_size)?;
         let field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
         let view_layout = view::layout(gpu);
-        let view_set = ViewSet::new(gpu, &view_layout, field.addressing);
+        let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
         let waves = match &scene.wave {
             Some(wave) => {
                 let waves = Waves::new(gpu)?;
@@ -141,6 +162,8 @@ impl Frame {
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let (stamp_set, compose_set, normals_set, pyramid_set) =
             (stamps.bind(gpu, &field), compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
+        let normal_mips = NormalMips::new(gpu)?;
+        let normal_mips_set = normal_mips.bind(gpu, &field);
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -150,6 +173,7 @@ impl Frame {
             scene,
             view_layout,
             view_set,
+            right_view_set,
             waves,
             stamps,
             stamp_set,
@@ -157,9 +181,14 @@ impl Frame {
             compose_set,
             normals,
             normals_set,
+            normal_mips,
+            normal_mips_set,
             pyramid,
             pyramid_set,
             surfaces: HashMap::new(),
+            stage: None,
+            mesh: start.mesh.clone(),
+            built_for: None,
             present,
             radiance,
             present_set,
@@ -188,20 +217,31 @@ impl Frame {
     ///
     /// A shader does not compile: the frame goes on with the passes it had.
     pub fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        let choice = self.choice();
         let _ = gpu.take_error();
-        let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
+        let display = self.built_for.unwrap_or_default();
+        let mut surfaces = HashMap::new();
+        for choice in self.sides(&display).iter().map(Side::choice) {
+            let surface = Surface::new(gpu, &self.view_layout, choice)?;
+            let set = surface.bind(gpu, &self.field);
+            surfaces.insert(choice, (surface, set));
+        }
         let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let normal_mips = NormalMips::new(gpu)?;
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
         if let Some(message) = gpu.take_error() {
             return Err(ShaderError::Unfit(message));
         }
+        if let Some(stage) = &mut self.stage {
+            stage.forget_pipelines();
+            stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
+        }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
-        let set = surface.bind(gpu, &self.field);
-        self.surfaces = HashMap::from([(choice, (surface, set))]);
+        self.built_for = None;
+        self.surfaces = surfaces;
         (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
+        self.normal_mips = normal_mips;
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
         }
@@ -232,7 +272,7 @@ impl Frame {
         {
             set.set_scene(gpu, &self.field, wave, scene.plane_size_metres());
         }
-        if before.plane != scene.plane || before.wave != scene.wave {
+        if before.plane != scene.plane || before.wave != scene.wave || before.lod.filters() != scene.lod.filters() {
             self.dirty = Dirty::All;
         }
         Ok(())
@@ -253,20 +293,73 @@ impl Frame {
     fn retarget(&mut self, gpu: &Gpu) {
         self.radiance = Texture::new(gpu, traced_size(&self.scene, self.image_size));
         self.present_set = self.present.bind(gpu, &self.radiance.view);
-    }
-
-    fn choice(&self) -> (Technique, Shadow, Albedo) {
-        (self.scene.trace.technique, self.scene.trace.shadow, self.scene.material.albedo)
-    }
-
-    fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
-        let choice = self.choice();
-        if !self.surfaces.contains_key(&choice) {
-            let surface = Surface::new(gpu, &self.view_layout, choice.0, choice.1, choice.2)?;
-            let set = surface.bind(gpu, &self.field);
-            self.surfaces.insert(choice, (surface, set));
+        if let Some(stage) = &mut self.stage {
+            stage.resize(gpu, traced_size(&self.scene, self.image_size));
         }
+    }
+
+    /// What is seen of the scene on each side of what is shown.
+    fn sides(&self, display: &Display) -> Vec<Side> {
+        let [width, _] = traced_size(&self.scene, self.image_size);
+        let side = |name, scene, shows, columns| Side { name, scene, display: Display { shows, ..*display }, columns };
+        match (display.divider(self.image_size[0], self.scene.trace.supersampling), &display.split) {
+            // Two looks at the same instant of the same field, each with a time of its own.
+            (Some(column), Some(split)) => vec![
+                side(SIDES[0], self.scene.clone(), display.shows, 0..column),
+                side(SIDES[1], split.scene(&self.scene), split.shows, column..width),
+            ],
+            _ => vec![side("surface", self.scene.clone(), display.shows, 0..width)],
+        }
+    }
+
+    /// Builds what a scene needs, and puts its mesh on the stage.
+    fn build_surface(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+        if self.mesh.is_some() || Stage::is_needed(&self.scene) {
+            self.set_stage(gpu);
+        } else {
+            self.stage = None;
+        }
+        self.build_sides(gpu, &Display::default())
+    }
+
+    /// Builds what each side of what is shown needs and is not there yet.
+    fn build_sides(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        for (index, side) in self.sides(display).iter().enumerate() {
+            if let Some(stage) = &mut self.stage {
+                stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
+                continue;
+            }
+            let choice = side.choice();
+            if !self.surfaces.contains_key(&choice) {
+                let surface = Surface::new(gpu, &self.view_layout, choice)?;
+                let set = surface.bind(gpu, &self.field);
+                self.surfaces.insert(choice, (surface, set));
+            }
+        }
+        self.built_for = Some(*display);
         Ok(())
+    }
+
+    /// The same, unless it was the last that was built.
+    fn build_for(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
+        if self.built_for != Some(*display) { self.build_sides(gpu, display) } else { Ok(()) }
+    }
+
+    fn set_stage(&mut self, gpu: &Gpu) {
+        let size = traced_size(&self.scene, self.image_size);
+        let mesh = self.mesh.clone().or_else(|| {
+            let plane = || Shape::Plane.mesh(self.scene.plane_size_metres().map(|metres| metres as f32));
+            self.scene.trace.shell.then(plane)
+        });
+        match &mut self.stage {
+            Some(stage) => stage.set_mesh(gpu, mesh),
+            None => self.stage = Some(Stage::new(gpu, &self.field, mesh, size)),
+        }
+    }
+
+    /// The stage on which the scene is seen, where it needs one.
+    pub fn stage(&self) -> Option<&Stage> {
+        self.stage.as_ref()
     }
 
     /// The scene that it shows.
@@ -289,7 +382,7 @@ impl Frame {
     ///
     /// # Errors
     ///
-    /// The strokes are too many for one frame on this adapter.
+    /// The strokes are too many for one frame on this adapter, or a shader that the display asks for does not compile.
     pub fn record(
         &mut self,
         gpu: &Gpu,
@@ -313,6 +406,7 @@ impl Frame {
             self.dirty.add(region, self.field.size);
         }
         let Some(target) = target else { return Ok(()) };
+        self.build_for(gpu, &input.display)?;
         // Derive what depends on the layers, where they changed.
         let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
         self.traffic.derived_texels = changed.iter().map(Region::area).sum();
@@ -333,16 +427,22 @@ impl Frame {
     }
 
     /// Shows the field as it stands once more, in a target of another format, and leaves everything as it is.
+    ///
+    /// # Errors
+    ///
+    /// A shader that the display asks for does not compile.
     pub fn show_with(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         present: &Present,
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
-    ) {
+    ) -> Result<(), ShaderError> {
+        self.build_for(gpu, &input.display)?;
         let set = present.bind(gpu, &self.radiance.view);
         self.show(&mut Recorder { gpu, encoder, timer: &self.timer }, (present, &set), input, target);
+        Ok(())
     }
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
@@ -357,7 +457,12 @@ impl Frame {
         };
         self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
-        self.normals.record(recorder, &self.normals_set, &grown(1, 1), slope_per_height(&self.scene));
+        let leaning = grown(1, 1);
+        self.normals.record(recorder, &self.normals_set, &leaning, slope_per_height(&self.scene));
+        // … what is left of that from afar, where the scene looks so …
+        if self.scene.lod.filters() {
+            self.normal_mips.record(recorder, &self.normal_mips_set, &leaning);
+        }
         // … and its bounds, which the cells before a texel see.
         self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
     }
@@ -370,22 +475,30 @@ impl Frame {
         input: &FrameInput<'_>,
         target: &wgpu::TextureView,
     ) {
-        let Some((surface, surface_set)) = self.surfaces.get(&self.choice()) else {
-            unreachable!("every change of the choice builds its surface first")
-        };
         let traced = traced_size(&self.scene, self.image_size);
-        let view = View::new(&self.scene, input.camera, input.tick.time_seconds, traced, input.shows);
-        self.view_set.uniform.write(recorder.gpu, &view);
-        surface.record(recorder, &self.view_set, surface_set, &self.radiance.view);
-        let tone_map = input.shows == Shows::Picture;
-        present.record(recorder, present_set, self.scene.trace.supersampling, tone_map, target);
+        let views = [&self.view_set, &self.right_view_set];
+        for (index, side) in self.sides(&input.display).into_iter().enumerate() {
+            let seen = Seen { display: side.display, ..input.seen(&side.scene) };
+            if let Some(stage) = &self.stage {
+                stage.record(recorder, side.name, index, &seen, &self.radiance.view, side.columns);
+            } else if let Some((surface, surface_set)) = self.surfaces.get(&side.choice()) {
+                let view = View::new(&side.scene, input.camera, input.tick.time_seconds, traced, side.display);
+                views[index].uniform.write(recorder.gpu, &view);
+                surface.record(recorder, side.name, views[index], surface_set, &self.radiance.view, side.columns);
+            } else {
+                unreachable!("whoever records builds the surfaces of what it shows first")
+            }
+        }
+        let supersampling = self.scene.trace.supersampling;
+        present.record(recorder, present_set, supersampling, &input.display, self.image_size[0], target);
     }
 
     /// Bytes of GPU memory of every texture.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
-        self.field.memory_bytes() + self.radiance.memory_bytes() + 4 * width * height
+        let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
+        self.field.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
@@ -393,7 +506,8 @@ impl Frame {
     pub fn field_traffic_bytes(&self) -> u64 {
         let texels = u64::from(self.field.size[0]) * u64::from(self.field.size[1]);
         let waves = if self.waves.is_some() { 4 } else { 0 };
-        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + pyramid::TEXEL_BYTES;
+        let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
+        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
         u64::from(self.traffic.wave_steps) * texels * wave::TEXEL_BYTES
             + self.traffic.stamped_texels * stamp::TEXEL_BYTES
             + self.traffic.derived_texels * derived
@@ -408,6 +522,24 @@ impl Frame {
         traced[0] * traced[1] * (4.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
     }
 }
+
+/// One side of what is shown: all of it, where there is no divider.
+struct Side {
+    name: &'static str,
+    scene: Scene,
+    display: Display,
+    /// Of the traced picture.
+    columns: Range<u32>,
+}
+
+impl Side {
+    fn choice(&self) -> Choice {
+        Choice::of(&self.scene).showing(self.display.shows)
+    }
+}
+
+/// What the surface pass is called on each side of a divider.
+pub const SIDES: [&str; 2] = ["surface, left", "surface, right"];
 
 /// Traced pixels of a picture of `image_size`.
 fn traced_size(scene: &Scene, image_size: [u32; 2]) -> [u32; 2] {

@@ -31,6 +31,8 @@
 //!   approximates this one surface, and exactness is measured against it.
 //! - **A flat base polygon clips nothing sideways**: a ray that leaves the plane before it hits goes on over the wrapped or
 //!   clamped field.
+//! - **A plane may repeat its field** (`plane.repeat`): copies surround the one in the middle, which stays where it is. Its size is
+//!   still that of one copy; uv leaves 0 to 1, world positions follow from it as before.
 //! - **Field space**: `u` right, `v` down the image (row 0 on top), height out of the surface: left-handed.
 //! - **World**: right-handed, metres, +y up. The plane lies in y = 0, centred on the origin, `u` along +x, `v` along +z; a point
 //!   of the surface is `((u − ½)·size.x, (h − 1)·depth, (v − ½)·size.y)`, with `depth` in metres.
@@ -46,6 +48,11 @@
 //!   its talk.
 //! - **\[PDM\]** K. Oh, H. Ki, C.-H. Lee, *Pyramidal Displacement Mapping*, VRST 2006, revised 2007.
 //! - **\[Zink\]** J. Zink, *A Closer Look at Parallax Occlusion Mapping*, GameDev.net 2006, revised 2008.
+//! - **\[Steep\]** M. McGuire, M. McGuire, *Steep Parallax Mapping*, I3D 2005 (poster).
+//! - **\[Kaneko\]** T. Kaneko et al., *Detailed Shape Representation with Parallax Mapping*, ICAT 2001.
+//! - **\[Welsh\]** T. Welsh, *Parallax Mapping with Offset Limiting: A Per-Pixel Approximation of Uneven Surfaces*, 2004.
+//! - **\[Policarpo\]** F. Policarpo, M. Oliveira, J. Comba, *Real-Time Relief Mapping on Arbitrary Polygonal Surfaces*, I3D 2005;
+//!   its depth bias as in F. Policarpo, M. Oliveira, *Relaxed Cone Stepping for Relief Mapping*, GPU Gems 3, 2007.
 
 pub mod camera;
 pub mod cli;
@@ -54,6 +61,7 @@ pub mod field;
 pub mod frame;
 pub mod gpu;
 pub mod io;
+pub mod mesh;
 pub mod modes;
 pub mod present;
 pub mod reference;

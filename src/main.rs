@@ -49,6 +49,7 @@ fn run(command: &Command) -> anyhow::Result<()> {
         Command::Live(options) => modes::live::run(options)?,
         Command::Capture(options) => modes::capture::run(options, command.verbosity())?,
         Command::Stress(options) => io::print(&modes::stress::run(options, command.verbosity())?)?,
+        Command::Compare(options) => io::print(&modes::compare::run(options, command.verbosity())?)?,
         Command::Adapters(options) => io::print(&modes::adapters::list(&options.machine.preference())?)?,
         Command::Scenes => io::print(&scenes())?,
     }

@@ -1,6 +1,7 @@
 //! Present: from radiance to what a screen or a file shows. Shader: `shaders/present.wgsl`.
 
 use crate::gpu::{Binding, BindingLayout, Gpu, Recorder, ShaderError, Uniform};
+use crate::surface::{Display, Shows};
 
 /// Uniforms of the pass.
 #[repr(C)]
@@ -10,10 +11,34 @@ pub struct PresentParams {
     pub supersampling: u32,
     /// 1: the target stores what is written; the shader encodes to sRGB.
     pub encode: u32,
-    /// 0: show the numbers as they are.
-    pub tone_map: u32,
+    /// The first shown column on the right side; 0: the picture is not split, all of it is the left side.
+    pub divider: u32,
     /// Zero.
     pub pad: u32,
+    /// How the left side is shown.
+    pub left: PresentSide,
+    /// How the right side is shown.
+    pub right: PresentSide,
+}
+
+/// How one side of a picture is shown.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PresentSide {
+    /// 0: show the numbers as they are.
+    pub tone_map: u32,
+    /// What the brightest heat stands for; 0: it has no legend.
+    pub legend: f32,
+}
+
+impl PresentSide {
+    /// A side that shows this, of a display with this gain.
+    pub fn new(shows: Shows, gain: f32) -> Self {
+        Self {
+            tone_map: u32::from(matches!(shows, Shows::Picture | Shows::LodTint)),
+            legend: shows.heat_top(gain).unwrap_or(0.0),
+        }
+    }
 }
 
 /// Tone-maps radiance to a target.
@@ -37,7 +62,7 @@ impl Present {
     /// The shader does not compile.
     pub fn new(gpu: &Gpu, target: wgpu::TextureFormat) -> Result<Self, ShaderError> {
         let layout = BindingLayout::new(gpu, "present", wgpu::ShaderStages::FRAGMENT, &[Binding::Uniform, Binding::Float(false)]);
-        let module = gpu.shaders.module(gpu, "present", &["present"])?;
+        let module = gpu.shaders.module(gpu, "present", &["common/heat", "common/legend", "present"])?;
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("present"),
             bind_group_layouts: &[None, Some(&layout.layout)],
@@ -79,19 +104,26 @@ impl Present {
         PresentSet { params, group }
     }
 
-    /// Records one render pass over the whole of `target`.
+    /// Records one render pass over the whole of `target`, which is `width` pixels wide.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
         set: &PresentSet,
         supersampling: u32,
-        tone_map: bool,
+        display: &Display,
+        width: u32,
         target: &wgpu::TextureView,
     ) {
-        set.params.write(
-            recorder.gpu,
-            &PresentParams { supersampling, encode: u32::from(!self.target.is_srgb()), tone_map: u32::from(tone_map), pad: 0 },
-        );
+        let right = display.split.map_or(display.shows, |split| split.shows);
+        let params = PresentParams {
+            supersampling,
+            encode: u32::from(!self.target.is_srgb()),
+            divider: display.divider(width, 1).unwrap_or(0),
+            pad: 0,
+            left: PresentSide::new(display.shows, display.gain),
+            right: PresentSide::new(right, display.gain),
+        };
+        set.params.write(recorder.gpu, &params);
         recorder.render("present", target, |pass| {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(1, &set.group, &[]);

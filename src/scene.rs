@@ -3,7 +3,11 @@
 //! The same value serves panel, command line, files and tests. Files are TOML; a field that is absent has its default, a field
 //! that is unknown is an error. [`Scene::validate`] says in one sentence what is out of range.
 
+mod bodies;
 mod framing;
+mod lights;
+mod lod;
+mod techniques;
 mod validate;
 
 use std::path::PathBuf;
@@ -11,10 +15,15 @@ use std::path::PathBuf;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::surface::{Albedo, Shadow, Technique};
+use crate::surface::{Albedo, Shading, Shadow, Technique};
 
+pub use bodies::{Ball, Mesh};
+pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
+pub use lod::{LOD_THRESHOLD, Lod};
+pub use techniques::{PomCounts, PyramidLeaf};
 pub use validate::{
-    COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, Range, SceneError, VERTICAL_FOV_DEGREES, check_camera,
+    COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES,
+    check_camera,
 };
 
 /// The version of the scene format that this program reads and writes.
@@ -53,12 +62,24 @@ pub struct Scene {
     /// How the surface is traced.
     #[serde(default)]
     pub trace: Trace,
+    /// How closely it is looked at from afar.
+    #[serde(default)]
+    pub lod: Lod,
     /// The light.
     #[serde(default)]
     pub light: Light,
+    /// Other lights, three at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<DirectionalLight>,
     /// What the surface is made of.
     #[serde(default)]
     pub material: Material,
+    /// The mesh that carries the relief; absent: the plane.
+    #[serde(default)]
+    pub mesh: Option<Mesh>,
+    /// Balls beside the relief, which cast shadows upon it and are mirrored in it.
+    #[serde(default)]
+    pub balls: Vec<Ball>,
     /// Where it is seen from.
     #[serde(default)]
     pub camera: Camera,
@@ -89,8 +110,12 @@ pub enum Addressing {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Plane {
-    /// Extent along x, metres. The extent along z follows from the field's aspect: texels are square.
+    /// Extent of the field along x, metres. The extent along z follows from the field's aspect: texels are square.
     pub width_metres: f32,
+    /// How often the plane shows the field along u and v. One copy stays where the only one would be, the others surround it:
+    /// uv leaves 0 to 1, and all that says where a uv lies holds as it stands.
+    #[serde(deserialize_with = "exactly")]
+    pub repeat: [u32; 2],
     /// Depth of h = 0 below the plane, metres.
     pub depth_metres: f32,
 }
@@ -111,6 +136,10 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Short fur, combed, the same that the `fur` albedo colours.
+    Fur {},
+    /// A lawn with daisies, the same that the `grass` albedo colours.
+    Grass {},
     /// An image's heights.
     Image {
         /// A PNG or EXR file.
@@ -210,20 +239,38 @@ pub struct Trace {
     pub technique: Technique,
     /// The shadow upon it.
     pub shadow: Shadow,
-    /// Samples of `pom` seen head-on (\[POM\] eq. 1, n_min).
+    /// Layers of `steep`.
+    pub steep_layers: u32,
+    /// Samples of the linear search of `relief`.
+    pub relief_linear_steps: u32,
+    /// Samples of its binary search.
+    pub relief_binary_steps: u32,
+    /// Whether `relief` shortens the offset of rays that graze (\[POM\] fig. 2).
+    pub relief_depth_bias: bool,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: PomCounts,
+    /// Samples of `pom` and `pom-linear` seen head-on (\[POM\] eq. 1, n_min), or the fewest.
     pub pom_samples_min: u32,
-    /// Samples of `pom` seen edge-on (\[POM\] eq. 1, n_max).
+    /// Samples of `pom` and `pom-linear` seen edge-on (\[POM\] eq. 1, n_max).
     pub pom_samples_max: u32,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: PyramidLeaf,
+    /// About how many triangles `mesh` has.
+    pub mesh_triangles: u32,
     /// Samples of `pom-soft` along the light ray; layers of `steep` from height 0 to 1.
     pub shadow_samples: u32,
     /// Strength of `pom-soft`: how fast a blocker darkens.
     pub shadow_strength: f32,
     /// Points of the light's disc to which `area` sends a ray each.
     pub area_samples: u32,
-    /// Nodes that one ray of `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
+    /// Nodes that one ray of `pyramid`, `exact`, `hard`, `cone` and `area` may visit before it gives up and says so.
     pub step_cap: u32,
     /// Rays along each side of a pixel; the picture is their mean. Channels other than colour take one.
     pub supersampling: u32,
+    /// Whether the depth of a pixel is that of the relief, so that surfaces intersect as they should; else it is the polygon's.
+    pub displaced_depth: bool,
+    /// Whether the relief is a solid with a silhouette of its own, which ends at the borders of its mesh.
+    pub shell: bool,
 }
 
 /// A directional light and its surroundings.
@@ -249,6 +296,10 @@ pub struct Light {
     pub ground: [f32; 3],
     /// Degrees a second that the light travels round the vertical.
     pub turn_degrees_per_second: f32,
+    /// Whether the relief hides it from itself.
+    pub casts_shadow: bool,
+    /// What is behind everything.
+    pub background: Background,
 }
 
 /// What the surface is made of.
@@ -260,10 +311,20 @@ pub struct Material {
     /// Tint of the albedo, linear.
     #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
-    /// Strength of the highlight, 0 to 1.
+    /// What light does to it.
+    pub model: Shading,
+    /// Strength of the highlight, 0 to 1; of `ggx` ½ is the 4 % of most dielectrics.
     pub specular: f32,
-    /// Exponent of the highlight (Blinn–Phong).
+    /// Exponent of the highlight of `phong`.
     pub shininess: f32,
+    /// How rough it is to `ggx`, 0 a mirror, 1 matt.
+    pub roughness: f32,
+    /// How metallic it is to `ggx`, 0 to 1.
+    pub metallic: f32,
+    /// How much of the sky it mirrors, of what Fresnel allows, 0 to 1.
+    pub reflection: f32,
+    /// Index of refraction, where it is transparent.
+    pub refractive_index: f32,
 }
 
 /// Where the surface is seen from.
@@ -282,6 +343,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// Metres a second that eye and target travel along x, y and z.
+    #[serde(deserialize_with = "exactly")]
+    pub fly_metres_per_second: [f64; 3],
 }
 
 fn one() -> f32 {
@@ -314,8 +378,12 @@ impl Default for Scene {
             wave: None,
             shots: None,
             trace: Trace::default(),
+            lod: Lod::default(),
             light: Light::default(),
+            lights: Vec::new(),
             material: Material::default(),
+            mesh: None,
+            balls: Vec::new(),
             camera: Camera::default(),
         }
     }
@@ -329,7 +397,7 @@ impl Default for FieldSettings {
 
 impl Default for Plane {
     fn default() -> Self {
-        Self { width_metres: 1.0, depth_metres: 0.1 }
+        Self { width_metres: 1.0, repeat: [1, 1], depth_metres: 0.1 }
     }
 }
 
@@ -371,13 +439,24 @@ impl Default for Trace {
         Self {
             technique: Technique::Exact,
             shadow: Shadow::Hard,
+            // [Steep] leaves the count open: that of `pom` seen edge-on.
+            steep_layers: 50,
+            // A thousandth of the depth: 16 · 2⁶ parts of it.
+            relief_linear_steps: 16,
+            relief_binary_steps: 6,
+            relief_depth_bias: false,
+            pom_counts: PomCounts::default(),
             pom_samples_min: 8,
             pom_samples_max: 50,
+            mesh_triangles: 131_072,
+            pyramid_leaf: PyramidLeaf::default(),
             shadow_samples: 16,
             shadow_strength: 4.0,
             area_samples: 64,
             step_cap: 4096,
             supersampling: 1,
+            displaced_depth: false,
+            shell: false,
         }
     }
 }
@@ -393,13 +472,25 @@ impl Default for Light {
             sky: [0.30, 0.37, 0.47],
             ground: [0.13, 0.10, 0.08],
             turn_degrees_per_second: 0.0,
+            casts_shadow: true,
+            background: Background::Studio,
         }
     }
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { albedo: Albedo::Plain, tint: [1.0, 1.0, 1.0], specular: 0.2, shininess: 32.0 }
+        Self {
+            albedo: Albedo::Plain,
+            tint: [1.0, 1.0, 1.0],
+            model: Shading::Phong,
+            specular: 0.2,
+            shininess: 32.0,
+            roughness: 0.5,
+            metallic: 0.0,
+            reflection: 0.0,
+            refractive_index: 1.5,
+        }
     }
 }
 
@@ -411,6 +502,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            fly_metres_per_second: [0.0; 3],
         }
     }
 }

@@ -53,7 +53,9 @@ fn arguments_alone_exit_with_2() {
     for (arguments, part) in [
         (&["--sceen", "relief"][..], "--scene"),
         (&["capture"], "--out"),
-        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal, pom and exact?"),
+        (&["capture", "--out", "out", "--technique", "exat"], "did you mean `exact`, of normal"),
+        (&["capture", "--out", "out", "--view", "stpes"], "did you mean `steps`"),
+        (&["stress", "--split", "pom:soft"], "unknown shadow `soft`"),
         (&["capture", "--out", "out", "--shadow", "hrad"], "did you mean `hard`"),
         (&["capture", "--out", "out", "--size", "0x480"], "--size"),
         (&["capture", "--out", "out", "--frames", "0"], "--frames"),
@@ -61,6 +63,9 @@ fn arguments_alone_exit_with_2() {
         (&["capture", "--out", "out", "--scene", "nowhere", "--field", "0"], "--field"),
         (&["stress", "--stamp-radius", "nan"], "--stamp-radius"),
         (&["live", "--fov", "180"], "--fov"),
+        (&["compare", "--techniques", "pom,exat"], "did you mean `exact`"),
+        (&["compare", "--sweep-samples", "4,0"], "--sweep-samples"),
+        (&["compare", "--json", "t.json", "--check", "t.json"], "--check"),
     ] {
         let sentence = refused(&rilievo(directory.path(), arguments), 2);
         assert!(sentence.contains(part), "{arguments:?}: {sentence}");
@@ -95,7 +100,7 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
     fs::write(path.join("far.toml"), "version = 9\n").expect("the directory can be written");
     let before = names(path);
     for (arguments, part) in [
-        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall and relief?"),
+        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall, relief, sidewalk, fur and grass?"),
         (&["--scene", "missing.toml"], "no such file"),
         (&["--scene", "./"], "directory"),
         (&["--scene", "broken.toml"], "broken.toml, line 3: unknown field `courrant`"),
@@ -111,7 +116,7 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
         (&["--scene", "broken.toml", "--height", "missing.png"], "line 3"),
         (&["--height", "missing.png", "--adapter", "none of this name"], "missing.png"),
     ] {
-        for mode in [&["capture", "--out", "out"][..], &["stress"]] {
+        for mode in [&["capture", "--out", "out"][..], &["stress"], &["compare", "--out", "out"]] {
             let sentence = refused(&rilievo(path, &[mode, arguments].concat()), 1);
             assert!(sentence.contains(part), "{arguments:?}: {sentence}");
         }
@@ -120,9 +125,32 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
 }
 
 #[test]
+fn an_unfit_table_exits_with_1_before_anything_is_measured() {
+    let directory = temporary();
+    let path = directory.path();
+    fs::write(path.join("text.json"), "no table\n").expect("the directory can be written");
+    fs::write(path.join("cut.json"), "{\"version\": 1, \"rows\": [").expect("the directory can be written");
+    fs::write(path.join("far.json"), "{\"version\": 9}").expect("the directory can be written");
+    fs::write(path.join("bare.json"), "{\"version\": 1}").expect("the directory can be written");
+    let before = names(path);
+    for (file, part) in [
+        ("missing.json", "no such file"),
+        (".", "directory"),
+        ("text.json", "is not JSON"),
+        ("cut.json", "ends too early"),
+        ("far.json", "is of version 9"),
+        ("bare.json", "missing field"),
+    ] {
+        let sentence = refused(&rilievo(path, &["compare", "--out", "out", "--check", file]), 1);
+        assert!(sentence.contains(part), "{file}: {sentence}");
+    }
+    assert_eq!(names(path), before);
+}
+
+#[test]
 fn no_adapter_exits_with_3() {
     let directory = temporary();
-    for mode in [&["adapters"][..], &["stress"], &["capture", "--out", "out"]] {
+    for mode in [&["adapters"][..], &["stress"], &["capture", "--out", "out"], &["compare", "--out", "out"]] {
         let sentence = refused(&rilievo(directory.path(), &[mode, &["--adapter", "none of this name"]].concat()), 3);
         assert!(sentence.contains("none of this name"), "{sentence}");
         // No driver at all: the loaders look where there is nothing.
@@ -157,11 +185,13 @@ fn limits_are_told() {
         for arguments in
             [&["--size", "4000000000x2"][..], &["--field", "4000000000"], &["--height", "h.png", "--field", "4000000000x2"]]
         {
-            for mode in [&["capture", "--out", "out"][..], &["stress"]] {
+            for mode in [&["capture", "--out", "out"][..], &["stress"], &["compare", "--out", "out"]] {
                 let sentence = refused(&rilievo(directory.path(), &[mode, arguments].concat()), 1);
                 assert!(sentence.contains("4000000000") && sentence.contains("limit of"), "{sentence}");
             }
         }
+        let sentence = refused(&rilievo(directory.path(), &["compare", "--out", "out", "--sweep-fields", "64,4000000000"]), 1);
+        assert!(sentence.contains("4000000000") && sentence.contains("limit of"), "{sentence}");
         assert_eq!(names(directory.path()), ["h.png"]);
     }
 }
@@ -180,6 +210,11 @@ fn an_output_that_cannot_be_written_exits_with_1() {
             1,
         );
         assert!(sentence.contains("no/j"), "{sentence}");
+        let compare = ["compare", "--size", "8x8", "--field", "16", "--frames", "1", "--out"];
+        for (out, more, part) in [("file/below", &[][..], "file"), ("out", &["--csv", "no/c"], "no/c")] {
+            let sentence = refused(&rilievo(directory.path(), &[&compare[..], &[out], more].concat()), 1);
+            assert!(sentence.contains(part), "{sentence}");
+        }
         assert_eq!(fs::read(directory.path().join("file")).expect("it is still there"), b"mine");
         assert_eq!(names(directory.path()), ["file"]);
     }

@@ -10,7 +10,7 @@ use rilievo::modes::capture::{PICTURE_FORMAT, Picture, read_channels};
 use rilievo::scene::{Base, Scene};
 use rilievo::stroke::Strokes;
 use rilievo::surface::channels::Channel;
-use rilievo::surface::{Channels, Shadow, Shows, Technique};
+use rilievo::surface::{Channels, Choice, Shadow, Shows, Technique};
 
 use crate::support::gpu::gpu;
 use crate::support::tolerances::FILTERED_HEIGHT;
@@ -27,14 +27,14 @@ fn pom_channels(gpu: &Gpu) -> (Vec<Channel>, bool) {
     scene.field.size = [128, 128];
     scene.trace.technique = Technique::Pom;
     scene.trace.shadow = Shadow::PomSoft;
-    let start = Start::new(&scene, base::heights(&scene).expect("a terrain is procedural"));
+    let start = Start::new(&scene, base::heights(&scene).expect("a terrain is procedural"), None);
     let size = [96, 64];
     let mut frame = Frame::new(gpu, &start, size, PICTURE_FORMAT).expect("it is small, and its shaders compile");
     let picture = Picture::new(gpu, size);
-    let pass = Channels::new(gpu, Technique::Pom, Shadow::PomSoft, scene.material.albedo).expect("its shaders compile");
+    let pass = Channels::new(gpu, Choice::of(&scene)).expect("its shaders compile");
     let camera = Camera::at(&scene.camera, 0.0);
     let (tick, strokes) = (Tick::default(), Strokes::default());
-    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+    let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
     let mut encoder = gpu.encoder("fallback");
     frame.record(gpu, &mut encoder, &input, Some(picture.view())).expect("there are no strokes");
     frame.finish(gpu, encoder);

@@ -5,38 +5,56 @@ use std::mem::{offset_of, size_of};
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::ComposeParams;
+use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
-use rilievo::present::PresentParams;
+use rilievo::present::{PresentParams, PresentSide};
+use rilievo::scene::{PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
+use rilievo::surface::level_of_detail::ViewDetail;
+use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
+use rilievo::surface::raster::{Geometry, RasterVertex};
 use rilievo::surface::ray_map::LinearForm;
-use rilievo::surface::{self, Albedo, Shadow, Shows, Technique, View};
+use rilievo::surface::shell::ShellTriangle;
+use rilievo::surface::view::{Ball, ViewLight};
+use rilievo::surface::{self, Albedo, Choice, Shading, Shadow, Shows, Technique, View};
 use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 6] = [
+    let fixed: [&[&str]; 7] = [
         &["common/region", "field/compose"],
+        &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
         &["field/wave"],
-        &["present"],
+        &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
-    for filters in [false, true] {
-        for &technique in Technique::ALL {
-            for &shadow in Shadow::ALL {
-                for &albedo in Albedo::ALL {
-                    for entry in ["surface", "channels", "probe"] {
-                        all.push(surface::parts(filters, technique, shadow, albedo, entry));
-                    }
-                }
+    // Parts meet only through the functions that they share by name: each with each of another kind, not all with all.
+    let plain = Choice::PLAIN;
+    let techniques = Technique::ALL.iter().map(|&technique| Choice { technique, ..plain });
+    let shadows = Shadow::ALL.iter().map(|&shadow| Choice { technique: Technique::Exact, shadow, ..plain });
+    let albedos = Albedo::ALL.iter().map(|&albedo| Choice { shadow: Shadow::Hard, albedo, ..plain });
+    for choice in techniques.chain(shadows).chain(albedos) {
+        for filters in [false, true] {
+            for entry in ["surface", "channels", "probe"] {
+                all.push(surface::parts(filters, choice, &[entry]));
             }
+        }
+        for geometry in Geometry::ALL {
+            all.push(surface::parts(true, choice, geometry.stems()));
+        }
+    }
+    for &shading in Shading::ALL {
+        all.push(surface::parts(true, Choice { shading, ..plain }, &["light_probe"]));
+        for with_truth in [false, true] {
+            all.push(surface::parts(true, Choice { shading, with_truth, ..plain }, &["surface"]));
         }
     }
     all
@@ -119,11 +137,18 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 pom_samples_max,
                 shadow_samples,
                 shadow_strength,
+                pom_counts,
+                steep_layers,
+                relief_linear_steps,
+                relief_binary_steps,
+                relief_depth_bias,
+                pyramid_leaf,
                 u_world,
                 first_row,
                 v_world,
                 displaced_depth,
                 up_world,
+                mesh_quads,
                 origin_world,
                 eye_world,
                 specular,
@@ -136,16 +161,45 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 ground,
                 shows,
                 tint,
-                light_radius,
+                roughness,
                 image_size,
+                planar,
+                ball_count,
+                metallic,
+                reflection,
+                index,
+                gain,
+                background,
+                light_count,
+                light_radius,
                 area_samples,
+                lights,
+                direction_x,
+                direction_y,
+                direction_z,
+                clip_from_eye,
+                eye_rest,
+                near_metres,
+                forward_world,
+                balls,
+                repeat,
+                detail,
             }),
         ),
+        ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),
+        ("Ball", layout!(Ball { centre, radius, colour })),
+        ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
+        ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
+        ("ViewLight", layout!(ViewLight { toward, casts_shadow, radiance })),
+        ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
+        ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
         ("Region", layout!(Region { origin, extent })),
         ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
+        ("NormalMipsParams", layout!(NormalMipsParams { region, source_size, size, last_weight })),
         ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
-        ("PresentParams", layout!(PresentParams { supersampling, encode, tone_map })),
+        ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
+        ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
@@ -219,13 +273,21 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
 
 #[test]
 fn what_became_of_a_ray_and_what_is_shown_have_the_same_numbers_on_both_sides() {
-    let module = module(&surface::parts(true, Technique::Exact, Shadow::Hard, Albedo::Plain, "surface"));
+    let module = module(&surface::parts(true, Choice::PLAIN, &["surface"]));
     let shown = Shows::ALL.iter().map(|shows| (format!("SHOW_{shows:?}").to_uppercase(), *shows as u32));
     let became =
         [("HIT", Hit::HIT), ("MISS", Hit::MISS), ("CAPPED", Hit::CAPPED)].map(|(name, number)| (name.to_owned(), number));
-    for (name, number) in shown.chain(became) {
+    let tops = [("VIEWS_STEPS", Shows::STEPS_TOP), ("VIEWS_LEVELS", Shows::LEVELS_TOP)].map(|(name, top)| (name.to_owned(), top));
+    let chosen = [("MARCH_BY_TEXELS".to_owned(), PomCounts::Texels as u32)];
+    for (name, number) in shown.chain(became).chain(tops).chain(chosen) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
     }
+}
+
+#[test]
+fn the_leaf_of_a_pyramid_has_the_same_number_on_both_sides() {
+    let module = module(&surface::parts(true, Choice { technique: Technique::Pyramid, ..Choice::PLAIN }, &["surface"]));
+    assert_eq!(constant(&module, "TRACE_PYRAMID_REFINED"), Some(PyramidLeaf::Refined as u32));
 }
 
 /// A module's constant of this name, where it is a literal.

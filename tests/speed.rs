@@ -9,7 +9,7 @@ use rilievo::frame::{Frame, FrameInput, Start};
 use rilievo::gpu::{Gpu, Timer};
 use rilievo::io::height_image::HeightImage;
 use rilievo::modes::capture::{PICTURE_FORMAT, Picture};
-use rilievo::modes::stress::milliseconds_when_idle;
+use rilievo::modes::headless::milliseconds_when_idle;
 use rilievo::scene::{Addressing, Base, Scene};
 use rilievo::stroke::Strokes;
 use rilievo::surface::{Shadow, Shows, Technique};
@@ -41,7 +41,8 @@ impl Relief {
     /// A still scene that starts from these heights.
     fn of(gpu: &Gpu, scene: &Scene, heights: Vec<f32>) -> Self {
         let image_size = [640, 480];
-        let mut frame = Frame::new(gpu, &Start::new(scene, heights), image_size, PICTURE_FORMAT).expect("its shaders compile");
+        let mut frame =
+            Frame::new(gpu, &Start::new(scene, heights, None), image_size, PICTURE_FORMAT).expect("its shaders compile");
         frame.timer = Timer::alone(gpu, milliseconds_when_idle);
         Self { frame, picture: Picture::new(gpu, image_size), camera: Camera::at(&scene.camera, 0.0) }
     }
@@ -49,7 +50,7 @@ impl Relief {
     /// Milliseconds of the surface pass of one more frame.
     fn surface_ms(&mut self, gpu: &Gpu) -> f64 {
         let (tick, strokes) = (Tick::default(), Strokes::default());
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &self.camera, shows: Shows::Picture };
+        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &self.camera, display: Shows::Picture.into() };
         let mut encoder = gpu.encoder("speed");
         self.frame.record(gpu, &mut encoder, &input, Some(self.picture.view())).expect("there are no strokes");
         self.frame.finish(gpu, encoder);

@@ -23,16 +23,3 @@ fn value_noise(position: vec2f, salt: u32) -> f32 {
     let high = mix(hash_cell(i + vec2i(0, 1), salt), hash_cell(i + vec2i(1, 1), salt), s.x);
     return mix(low, high, s.y);
 }
-
-// Four octaves of it, in [0, 1).
-fn fractal_noise(position: vec2f, salt: u32) -> f32 {
-    var sum = 0.0;
-    var weight = 0.5;
-    var p = position;
-    for (var octave = 0u; octave < 4u; octave++) {
-        sum += weight * value_noise(p, salt + octave);
-        p = 2.0 * p + 17.3;
-        weight *= 0.5;
-    }
-    return sum / 0.9375;
-}

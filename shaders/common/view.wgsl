@@ -7,6 +7,28 @@ struct LinearForm {
     rest: vec4f,
 }
 
+// How level of detail is chosen: see surface/level_of_detail.wgsl.
+struct ViewDetail {
+    threshold: f32, // mip level beyond which normal mapping alone is left
+    traces: u32,    // 1 where the trace heeds it
+    filters: u32,   // 1 where light falls on what a pixel sees, not on one point
+    pad: u32,
+}
+
+// A light without extent, infinitely far away.
+struct ViewLight {
+    toward: vec3f,      // unit vector toward it, world
+    casts_shadow: u32,  // 1 where the relief hides it from itself
+    radiance: vec3f,    // that a white surface facing it has
+}
+
+// A ball beside the relief.
+struct Ball {
+    centre: vec3f,  // world, metres
+    radius: f32,
+    colour: vec3f,  // albedo, linear
+}
+
 struct View {
     // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
     // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
@@ -28,12 +50,20 @@ struct View {
     shadow_samples: f32,
     shadow_strength: f32,
 
+    pom_counts: u32,             // how pom chooses its counts: see surface/march.wgsl
+    steep_layers: f32,
+    relief_linear_steps: f32,
+    relief_binary_steps: u32,
+    relief_depth_bias: u32,      // 1 where relief shortens the offset of grazing rays, else 0
+    pyramid_leaf: u32,           // what pyramid makes of a leaf: see surface/trace_pyramid.wgsl
+
     // The plane's axes, unit vectors in the world, and its middle.
     u_world: vec3f,
     first_row: u32,              // of the band that channels are written for
     v_world: vec3f,
     displaced_depth: u32,        // 1 where the depth of a pixel is that of the relief, 0 where it is that of the polygon
     up_world: vec3f,
+    mesh_quads: u32,             // of the micropolygon mesh along either side of a tile
     origin_world: vec3f,
 
     eye_world: vec3f,
@@ -47,10 +77,35 @@ struct View {
     ground: vec3f,               // radiance from below
     shows: u32,                  // what the picture shows: see surface/shade.wgsl
     tint: vec3f,
-    light_radius: f32,           // tangent of half the angle that the light's disc spans
+    roughness: f32,              // 0 a mirror, 1 matt
 
     image_size: vec2u,           // of the traced picture, pixels
+    // 1 where what is drawn takes its rays from the forms above, 2 where it is the plane alone, clipped to its border, 0 where it
+    // takes them from each point's tangent space.
+    planar: u32,
+    ball_count: u32,
+    metallic: f32,               // 0 a dielectric, 1 a metal
+    reflection: f32,             // how much of its surroundings the surface mirrors
+    index: f32,                  // of refraction, where the surface is transparent
+    gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
+    background: u32,             // what is behind everything: see surface/sky.wgsl
+    light_count: u32,
+    light_radius: f32,           // tangent of half the angle that the light's disc spans
     area_samples: u32,           // points of the light's disc
+    lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
+
+    // The pixel's direction in the world, with unit length along the view axis.
+    direction_x: LinearForm,
+    direction_y: LinearForm,
+    direction_z: LinearForm,
+    clip_from_eye: mat4x4f,      // from what is counted from the eye, in the world's axes; depth is near over distance
+    eye_rest: vec3f,             // what eye_world lacks
+    near_metres: f32,
+    forward_world: vec3f,        // unit, along the view axis
+    balls: array<Ball, 4>,
+    repeat: vec2f,               // how often the plane shows the field along u and v
+    pad_repeat: vec2f,
+    detail: ViewDetail,
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

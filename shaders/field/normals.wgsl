@@ -1,7 +1,7 @@
 // Normals: the slope of the height field, by a 3×3 Sobel gradient.
 //
 //   height  r32float     read    1 = reference surface, 0 = deepest; texel centres
-//   normal  rgba16float  write   xyz = unit normal in field space (u right, v down, out)
+//   normal  rgba16float  write   level 0: xyz = unit normal in field space (u right, v down, out), w = height
 //
 // 4 bytes in, 8 out a texel, the halo apart. Specification: src/reference/normals.rs. Composed after common/region.wgsl.
 
@@ -47,5 +47,6 @@ fn normals(@builtin(global_invocation_id) id: vec3u) {
     let s = height_at(texel.x, y.y);
     let se = height_at(x.y, y.y);
     let slope = vec2f((ne - nw) + 2.0 * (e - w) + (se - sw), (sw - nw) + 2.0 * (s - n) + (se - ne)) / 8.0;
-    textureStore(normal, texel, vec4f(normalize(vec3f(-slope * params.slope_per_height, 1.0)), 0.0));
+    let leaning = vec3f(-slope * params.slope_per_height, 1.0);
+    textureStore(normal, texel, vec4f(normalize(leaning), height_at(texel.x, texel.y)));
 }

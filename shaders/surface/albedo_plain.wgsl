@@ -2,7 +2,7 @@
 
 fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
-    let grain = fractal_noise(plane_metres(point.lattice) * 90.0, 3u);
+    let grain = noise_over(plane_metres(point.lattice), 90.0, 3u);
     let level = smoothstep(0.45, 0.92, point.level);
     let deep = mix(0.62, 1.0, smoothstep(0.0, 0.55, point.height));
     let clay = mix(vec3f(0.36, 0.225, 0.150), vec3f(0.60, 0.51, 0.41), level) * deep * mix(0.90, 1.08, grain);

@@ -29,23 +29,23 @@ fn light_toward(ray: Ray) -> vec3f {
 
 // The disc round a unit vector above the reference surface, world.
 fn light_disc(toward: vec3f, radius: f32) -> LightDisc {
-    let normal = frame_normal();
+    let normal = frame_up();
     // Where the light stands in the zenith any direction is level.
     let beside = cross(toward, normal);
     let any_level = normalize(cross(frame.along_u, normal));
     let across = select(normalize(beside), any_level, dot(beside, beside) < 1e-12);
     let raised = cross(across, toward);
 
-    let centre = field_direction(toward);
+    let centre = field_displacement(toward);
     let per_climb = radius / centre.z;
-    let above = field_direction(raised) * per_climb;
+    let above = field_displacement(raised) * per_climb;
     let reach = max(dot(frame.up, raised), 1e-6 * length(frame.up));
     return LightDisc(
         centre.xy / centre.z,
         above.xy,
         above.z,
         LIGHT_DISC_LEVEL / dot(normal, toward),
-        field_direction(across).xy * per_climb,
+        field_displacement(across).xy * per_climb,
         per_climb / reach,
         radius * dot(frame.up, toward) / reach,
     );

@@ -15,6 +15,9 @@ struct Matter {
     specular: f32,    // strength of the highlight
     shininess: f32,   // its exponent
     glow: vec3f,      // radiance besides what the light model adds: reflection, what shows through
+    roughness: f32,   // 0 a mirror, 1 matt: GGX's α is its square
+    metallic: f32,    // 0 a dielectric, 1 a metal
+    reflection: f32,  // how much of its surroundings it mirrors, of what Fresnel allows
 }
 
 // What stamps left at a lattice position: soot, bare, post, 0, each 0 to 1, bilinear.
@@ -37,8 +40,39 @@ fn plane_metres(lattice: vec2f) -> vec2f {
     return (lattice + 0.5) * view.texel_metres;
 }
 
+// Four octaves of value noise in [0, 1), the largest with so many features a metre: what is finer than the pixel becomes its mean.
+fn noise_over(metres: vec2f, per_metre: f32, salt: u32) -> f32 {
+    var sum = 0.0;
+    var weights = 0.0;
+    var weight = 0.5;
+    var position = metres * per_metre;
+    var size = footprint_metres() * per_metre;
+    for (var octave = 0u; octave < 4u; octave++) {
+        let left = detail_left(size);
+        if left > 0.0 {
+            sum += weight * left * (value_noise(position, salt + octave) - 0.5);
+        }
+        weights += weight;
+        position = 2.0 * position + 17.3;
+        size *= 2.0;
+        weight *= 0.5;
+    }
+    return 0.5 + sum / weights;
+}
+
+// How much of the pixel's width, but at least of `softness`, lies beside a stripe of this width whose middle is so far away.
+fn beside_stripe(from_middle: f32, stripe: f32, footprint_width: f32, softness: f32) -> f32 {
+    let width = max(footprint_width, softness);
+    let overlap = min(from_middle + 0.5 * width, 0.5 * stripe) - max(from_middle - 0.5 * width, -0.5 * stripe);
+    return 1.0 - clamp(overlap / width, 0.0, 1.0);
+}
+
 // The scene's material with the given colour, blackened by soot.
 fn sooty(colour: vec3f, soot: f32) -> Matter {
     let left = 1.0 - soot;
-    return Matter(colour * view.tint * mix(0.08, 1.0, left * left), view.specular * left, view.shininess, vec3f(0.0));
+    let albedo = colour * view.tint * mix(0.08, 1.0, left * left);
+    let roughness = mix(1.0, view.roughness, left);
+    return Matter(
+        albedo, view.specular * left, view.shininess, vec3f(0.0), roughness, view.metallic * left, view.reflection * left,
+    );
 }

@@ -39,6 +39,11 @@ fn end_of(ray: Ray, steps: u32) -> Hit {
     return Hit(ray_at(ray, ray.t_end), ray_height(ray, ray.t_end), ray.t_end, steps, ray.ends);
 }
 
+// A hit at t.
+fn hit_at(ray: Ray, t: f32, steps: u32) -> Hit {
+    return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, HIT);
+}
+
 // What became of a ray.
 const HIT: u32 = 0u;     // it met the surface
 const MISS: u32 = 1u;    // it left the slab, or its piece of a shell
@@ -51,3 +56,6 @@ struct Hit {
     steps: u32,     // height samples or nodes visited, a leaf counts one
     status: u32,    // HIT, MISS or CAPPED
 }
+
+// The level of the pyramid at which the last trace found the surface: 0 is the surface itself.
+var<private> hit_level: i32;

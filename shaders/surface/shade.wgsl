@@ -1,57 +1,64 @@
-// What a point of the surface looks like: ambient, diffuse and specular light (Blinn–Phong, as [POM] §4 and [Zink] have it).
+// What a point of the surface looks like: what each light, the sky and the surroundings add.
 //
-// Composed after a trace, a shadow and an albedo.
-
-// What the picture shows.
-const SHOW_PICTURE: u32 = 0u;
-const SHOW_HEIGHT: u32 = 1u;
-const SHOW_NORMAL: u32 = 2u;
-const SHOW_VISIBILITY: u32 = 3u;
-const SHOW_STEPS: u32 = 4u;
+// Composed after a trace, a shadow, the sky, the balls, an albedo and a light model.
 
 // A light lower above the reference surface than this, as a sine, is not up: its way would have no end.
 const LIGHT_LEVEL: f32 = 1e-4;
 
+// How far under the surface a ray must come into a shell to have come through its side: rounding is a thousandth of that.
+const CUT_DEPTH: f32 = 1e-3;
+
 struct Shaded {
+    ray: Ray,
     hit: Hit,
     height: f32,        // of the field at the hit's lattice position
     normal_world: vec3f,
-    visibility: f32,    // share of the light that arrives; 0 where the surface faces away from it
+    visibility: f32,    // share of the first light that arrives; 0 where the surface faces away from it
     radiance: vec3f,
 }
 
-// The world normal at a lattice position.
-fn normal_at(lattice: vec2f) -> vec3f {
-    return frame_normal_of(normalize(textureSampleLevel(normal_map, bilinear, uv_of(lattice), 0.0).xyz));
-}
-
-// Share of the light that reaches a point of the surface.
-fn visibility_at(lattice: vec2f, height: f32, normal_world: vec3f) -> f32 {
-    if dot(normal_world, view.light_world) <= 0.0 || dot(frame_normal(), view.light_world) <= LIGHT_LEVEL {
-        return 0.0;
+// Share of each light that reaches a point of the surface at a place in the world; 0 where the surface faces away from it. On a
+// cut through the relief nothing but the balls casts shadows.
+fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, reference: vec3f, is_cut: bool) -> vec4f {
+    var arrives = vec4f(0.0);
+    for (var i = 0u; i < view.light_count; i++) {
+        let source = view_buffer.lights[i];
+        if dot(normal, source.toward) > 0.0 && (is_cut || dot(reference, source.toward) > LIGHT_LEVEL) {
+            var share = balls_visibility(world, source.toward);
+            if share > 0.0 && source.casts_shadow == 1u && !is_cut {
+                let direction = field_direction(source.toward, reference);
+                let way = direction.xy / direction.z;
+                let left = detail_shadows(way);
+                if left > 0.0 {
+                    share *= mix(1.0, shadow(shadow_ray(lattice, way, height)), left);
+                }
+            }
+            arrives[i] = share;
+        }
     }
-    let direction = field_direction(view.light_world);
-    return shadow(shadow_ray(lattice, direction.xy / direction.z, height));
+    return arrives;
 }
 
 // How open the sky is above a point, from the horizon in eight directions, four near and four far: what lies higher hides some of
 // it.
-fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
+fn sky_visibility(lattice: vec2f, field_height: f32) -> f32 {
+    let level = light_level();
+    let height = select(height_over(lattice, level), field_height, level == 0.0);
     let per_texel = view.depth_metres / view.texel_metres;
     let near = 4.0;
     let far = 13.0;
     let diagonal = 0.70710678 * far;
     let climbs = max(vec4f(0.0), per_texel / near * (vec4f(
-        sample_height(lattice + vec2f(near, 0.0)),
-        sample_height(lattice + vec2f(0.0, near)),
-        sample_height(lattice - vec2f(near, 0.0)),
-        sample_height(lattice - vec2f(0.0, near)),
+        height_over(lattice + vec2f(near, 0.0), level),
+        height_over(lattice + vec2f(0.0, near), level),
+        height_over(lattice - vec2f(near, 0.0), level),
+        height_over(lattice - vec2f(0.0, near), level),
     ) - height));
     let rises = max(vec4f(0.0), per_texel / far * (vec4f(
-        sample_height(lattice + vec2f(diagonal, diagonal)),
-        sample_height(lattice + vec2f(-diagonal, diagonal)),
-        sample_height(lattice - vec2f(diagonal, diagonal)),
-        sample_height(lattice + vec2f(diagonal, -diagonal)),
+        height_over(lattice + vec2f(diagonal, diagonal), level),
+        height_over(lattice + vec2f(-diagonal, diagonal), level),
+        height_over(lattice - vec2f(diagonal, diagonal), level),
+        height_over(lattice + vec2f(diagonal, -diagonal), level),
     ) - height));
     // The sines of the horizon's elevations.
     let hidden = climbs * inverseSqrt(1.0 + climbs * climbs) + rises * inverseSqrt(1.0 + rises * rises);
@@ -59,48 +66,30 @@ fn sky_visibility(lattice: vec2f, height: f32) -> f32 {
 }
 
 fn shade(ray: Ray) -> Shaded {
-    let hit = trace(ray);
+    return shade_hit(ray, trace_detail(ray));
+}
+
+fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     let height = load_surface(hit.lattice);
-    let normal = normal_at(hit.lattice);
-    let lit = visibility_at(hit.lattice, height, normal);
-
     let position = world_of(hit.lattice, hit.height);
+    // A ray that came into a shell through its side, under the surface, sees the side itself.
+    let is_cut = hit.t == 0.0 && height - hit.height > CUT_DEPTH && any(frame.cut != vec3f(0.0));
+    let reference = select(frame_normal(hit.lattice), frame.cut, is_cut);
+    let over = select(normal_over(hit.lattice, reference), vec4f(frame.cut, 1.0), is_cut);
+    let normal = over.xyz;
+    let lit = visibilities_at(hit.lattice, height, position, normal, reference, is_cut);
     let toward_eye = normalize(view.eye_world - position);
-    let matter = matter_at(SurfacePoint(hit.lattice, position, height, normal, dot(normal, frame_normal()), toward_eye, lit));
-    let halfway = normalize(toward_eye + view.light_world);
-    let diffuse = max(dot(normal, view.light_world), 0.0);
-    // Normalised, so that a tighter highlight is a brighter one.
-    let highlight = matter.specular * (matter.shininess + 8.0) / 25.0 * pow(max(dot(normal, halfway), 0.0), matter.shininess);
-    let ambient = mix(view.ground, view.sky, 0.5 + 0.5 * normal.y) * sky_visibility(hit.lattice, height);
-    let direct = view.light_radiance * lit * diffuse;
-    let radiance = matter.albedo * (ambient + direct) + direct * highlight + matter.glow;
-    return Shaded(hit, height, normal, lit, radiance);
-}
+    let point = SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x);
+    let matter = detail_matter(matter_at(point), over.w);
 
-// A colour for a number between 0 and 1: black, violet, orange, pale yellow, ever brighter.
-fn heat(value: f32) -> vec3f {
-    let x = clamp(value, 0.0, 1.0);
-    return vec3f(
-        smoothstep(0.05, 0.62, x),
-        0.9 * smoothstep(0.38, 1.0, x),
-        0.45 * smoothstep(0.0, 0.28, x) * (1.0 - smoothstep(0.34, 0.66, x)) + 0.62 * smoothstep(0.72, 1.0, x),
-    );
-}
-
-// The radiance of the picture or of the view that was chosen instead.
-fn shown(shaded: Shaded) -> vec3f {
-    switch view.shows {
-        case SHOW_HEIGHT: { return vec3f(shaded.height); }
-        case SHOW_NORMAL: {
-            // As a normal map has it: u to the right, v down.
-            let along = vec3f(dot(shaded.normal_world, normalize(frame.along_u)), dot(shaded.normal_world, normalize(frame.along_v)), 0.0);
-            return vec3f(along.x, -along.y, dot(shaded.normal_world, frame_normal())) * 0.5 + 0.5;
-        }
-        case SHOW_VISIBILITY: { return vec3f(shaded.visibility); }
-        case SHOW_STEPS: { return heat(f32(shaded.hit.steps) / 64.0); }
-        default: {
-            // A ray that gave up is never silently a hit.
-            return select(shaded.radiance, vec3f(4.0, 0.0, 4.0), shaded.hit.status == CAPPED);
-        }
+    let open = sky_visibility(hit.lattice, height);
+    let reflected = reflect(-toward_eye, normal);
+    let mirrored = sky_blurred(reflected, light_roughness(matter)) * balls_visibility(position, reflected);
+    var radiance = matter.glow + light_around(matter, dot(normal, toward_eye), open * sky_mean(normal), open * mirrored)
+        + balls_mirrored(position, normal, toward_eye, max(matter.specular, matter.reflection));
+    for (var i = 0u; i < view.light_count; i++) {
+        let source = view_buffer.lights[i];
+        radiance += lit[i] * source.radiance * light(matter, normal, toward_eye, source.toward);
     }
+    return Shaded(ray, hit, height, normal, lit.x, radiance);
 }

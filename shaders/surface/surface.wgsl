@@ -2,7 +2,8 @@
 //
 //   radiance  rgba16float  write  linear, unbounded
 //
-// One triangle covers the picture: the plane's border is computed, which antialiases it for nothing.
+// One triangle covers the picture: the plane's border is computed, which antialiases it for nothing. Among other things, with a depth
+// buffer, the background is drawn first and the plane blends into it at its border.
 
 @vertex
 fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
@@ -10,18 +11,10 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(corner, 0.0, 1.0);
 }
 
-// A dim studio, brighter behind the middle of the picture.
-fn background(position: vec2f) -> vec3f {
-    let size = vec2f(view.image_size);
-    let from_middle = (position - 0.5 * size) / size.y;
-    let falloff = exp(-1.6 * dot(from_middle, from_middle));
-    return mix(vec3f(0.010, 0.012, 0.016), vec3f(0.060, 0.068, 0.080), falloff);
-}
-
 @fragment
 fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
     view = view_buffer;
-    let behind = background(position.xy);
+    let behind = background(position.xy, pixel_direction(position.xy));
     let pixel = pixel_ray(position.xy);
     let coverage = plane_coverage(pixel);
     if coverage == 0.0 {
@@ -29,4 +22,10 @@ fn surface(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     frame = plane_frame();
     return vec4f(mix(behind, shown(shade(pixel.ray)), coverage), 1.0);
+}
+
+@fragment
+fn backdrop(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    view = view_buffer;
+    return vec4f(background(position.xy, pixel_direction(position.xy)), 1.0);
 }

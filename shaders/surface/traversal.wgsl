@@ -32,6 +32,10 @@ struct TraversalWay {
     top: i32,              // the coarsest level
 }
 
+// How coarse a surface the traversal looks for: the mip level of the mean heights at which it stops, 0 for the field itself ([PDM]
+// §3.4). What sets it resets it.
+var<private> traversal_detail: f32;
+
 // Where the ray is.
 struct TraversalPlace {
     cell: vec2i,  // of level 0, in the field's tile
@@ -65,6 +69,46 @@ fn traversal_highest() -> f32 {
     return textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r + TRAVERSAL_SLACK;
 }
 
+fn traversal_way(travel: vec2f) -> TraversalWay {
+    let backward = travel < vec2f(0.0);
+    let toward = select(vec2i(1), vec2i(-1), backward);
+    return TraversalWay(vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1);
+}
+
+// The place at a lattice position, counted from the ray's cell, from which the ray goes on.
+fn traversal_place(ray: Ray, way: TraversalWay, at: vec2f, level: i32) -> TraversalPlace {
+    let cell = vec2i(select(floor(at), ceil(at) - 1.0, way.backward)) + ray.cell;
+    if way.wraps {
+        let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
+        return TraversalPlace(cell - tile, tile - ray.cell, level);
+    }
+    return TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
+}
+
+// Where the ray meets the far borders of the place's node, an axis.
+fn traversal_borders(ray: Ray, way: TraversalWay, place: TraversalPlace, node: vec2i, per_travel: vec2f) -> vec2f {
+    let outermost = node == select(traversal_nodes(way, place.level) - 1, vec2i(-1), way.backward);
+    let far = (node + select(vec2i(1), vec2i(0), way.backward)) << vec2u(u32(place.level));
+    let border = select(far, way.cells, outermost);
+    let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
+    return select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+}
+
+// The place after the node's: down into it where the ray enters it, at a lattice position counted from the ray's cell, else
+// across the border. Rounding never carries it out of the node.
+fn traversal_onward(
+    way: TraversalWay, place: TraversalPlace, node: vec2i, at: vec2f, enters: bool, crosses: vec2<bool>,
+) -> TraversalPlace {
+    let scale = vec2u(u32(place.level));
+    let first = max(node << scale, vec2i(-1));
+    let last = select(((node + 1) << scale) - 1, way.cells - 1, node == traversal_nodes(way, place.level) - 1);
+    let there = clamp(vec2i(floor(at)) - place.tile, first, last);
+    if enters {
+        return TraversalPlace(there, place.tile, place.level - 1);
+    }
+    return traversal_across(way, place, select(there, select(last, first, way.backward), crosses), crosses);
+}
+
 // The search of a falling ray begins where it goes under the highest bound.
 fn traversal_begin(ray: Ray) -> f32 {
     if ray.rise >= 0.0 {
@@ -91,23 +135,15 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
     let still = abs(ray.travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(ray.travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(ray.travel, vec2f(TRAVERSAL_STILL), still);
-    let backward = travel < vec2f(0.0);
-    let toward = select(vec2i(1), vec2i(-1), backward);
-    let way = TraversalWay(
-        vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1,
-    );
+    let way = traversal_way(travel);
 
     // The place at the start. Coarser first nodes are rarely clear of the surface, finer ones are many: half the ray's extent
     // measured best.
     let start = ray.lattice + t_begin * travel;
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
-    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
-    let cell = vec2i(select(floor(start), ceil(start) - 1.0, backward)) + ray.cell;
-    var place = TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
-    if way.wraps {
-        let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
-        place = TraversalPlace(cell - tile, tile - ray.cell, level);
-    }
+    let finest = min(i32(traversal_detail), way.top);
+    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, finest, way.top);
+    var place = traversal_place(ray, way, start, level);
 
     var t = t_begin;
     var steps = 0u;
@@ -122,14 +158,9 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
             steps += 1u;
 
             // The node, its bound, and where the ray leaves it.
-            let scale = vec2u(u32(place.level));
-            let last_node = traversal_nodes(way, place.level) - 1;
             let node = traversal_node(way, place, place.level);
             let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
-            let outermost = node == select(last_node, vec2i(-1), backward);
-            let border = select((node + select(vec2i(1), vec2i(0), backward)) << scale, way.cells, outermost);
-            let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
-            let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+            let t_border = traversal_borders(ray, way, place, node, per_travel);
             t_out = max(t, min(min(t_border.x, t_border.y), t_end));
 
             // From where on it is under the bound, if it comes to that ([PDM] fig. 7: advance the ray to the bound).
@@ -139,27 +170,25 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
             t_under = select(select(2.0 * t_end + 1.0, t, t <= t_bound), max(t, t_bound), falls);
             let enters = t_under <= t_out;
             crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
-            arrived = enters && place.level == 0;
+            arrived = enters && place.level == finest;
             if !arrived {
                 if !enters && t_out >= t_end {
                     return end_of(ray, steps);
                 }
                 // Down to where it goes under the bound, or across the border. Rounding never carries it out of the node.
                 t = select(t_out, t_under, enters);
-                let first = max(node << scale, vec2i(-1));
-                let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
-                let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
-                if enters {
-                    place = TraversalPlace(there, place.tile, place.level - 1);
-                } else {
-                    place = traversal_across(way, place, select(there, select(last, first, backward), crosses), crosses);
-                }
+                place = traversal_onward(way, place, node, ray.lattice + t * travel, enters, crosses);
             }
         }
         if !arrived {
             break;
         }
-        let hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
+        var hit: f32;
+        if traversal_detail > 0.0 {
+            hit = traversal_coarse_leaf(ray, t_under, t_out);
+        } else {
+            hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
+        }
         if hit <= 1.0 {
             let t_hit = t_under + hit * (t_out - t_under);
             return Hit(ray_at(ray, t_hit), ray_height(ray, t_hit), t_hit, steps, HIT);
@@ -168,9 +197,33 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
             return end_of(ray, steps);
         }
         t = t_out;
-        place = traversal_across(way, place, place.cell, crosses);
+        place = traversal_across(way, place, traversal_leaving(ray, way, place, t * travel, crosses), crosses);
     }
     return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, CAPPED);
+}
+
+// The cell in which a ray that has come so far leaves the place's node, which may be of any level.
+fn traversal_leaving(ray: Ray, way: TraversalWay, place: TraversalPlace, gone: vec2f, crosses: vec2<bool>) -> vec2i {
+    if place.level == 0 {
+        return place.cell;
+    }
+    let scale = vec2u(u32(place.level));
+    let node = traversal_node(way, place, place.level);
+    let first = max(node << scale, vec2i(-1));
+    let last = select(((node + 1) << scale) - 1, way.cells - 1, node == traversal_nodes(way, place.level) - 1);
+    let there = clamp(vec2i(floor(ray.lattice + gone)) - place.tile, first, last);
+    return select(there, select(last, first, way.backward), crosses);
+}
+
+// The same of a way through a node of any level, against the mean heights there: their surface is nearly straight over a node of
+// its own level, and moves smoothly as the level does, so that nothing pops.
+fn traversal_coarse_leaf(ray: Ray, t_in: f32, t_out: f32) -> f32 {
+    let enter = ray_height(ray, t_in) - height_over(ray_at(ray, t_in), traversal_detail);
+    let leave = ray_height(ray, t_out) - height_over(ray_at(ray, t_out), traversal_detail);
+    if enter <= 0.0 {
+        return 0.0;
+    }
+    return select(2.0, enter / (enter - leave), leave <= 0.0);
 }
 
 // The corners of the place's cell, which is one of the field's or the half cell before it: no remainder to take, as load_corners

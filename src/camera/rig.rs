@@ -143,7 +143,8 @@ impl Rig {
     fn take_hold(&mut self, time_seconds: f64) {
         if self.motion == Motion::Scene {
             let camera = self.centred(time_seconds);
-            let target = DVec3::from(self.scene.target);
+            let flown = DVec3::from(self.scene.fly_metres_per_second) * time_seconds;
+            let target = DVec3::from(self.scene.target) + flown;
             let distance = camera.eye().distance(target).max(Self::DISTANCE_METRES[0]);
             self.motion = Motion::Orbit { target, distance, heading: Heading::behind(&camera) };
         }

@@ -5,13 +5,17 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Verbosity;
+use super::display::DisplayOptions;
 use super::values::{
-    backend, camera, depth, field, fov, height_range, light_angle, non_empty, shadow, shadow_help, size, technique,
+    Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, non_empty, pom_counts, pom_counts_help,
+    pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, size, switch, technique,
     technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
-use crate::surface::{Shadow, Technique};
+use crate::mesh::MeshSource;
+use crate::scene::{PomCounts, PyramidLeaf};
+use crate::surface::{Shading, Shadow, Technique};
 
 /// What every mode that shows a scene takes.
 #[derive(Args, Clone, Debug, PartialEq)]
@@ -21,10 +25,33 @@ pub struct CommonOptions {
     pub scene: String,
 
     #[arg(long, value_name = "T", value_parser = technique, help = technique_help(), help_heading = "Scene")]
-    technique: Option<Technique>,
+    pub(super) technique: Option<Technique>,
 
     #[arg(long, value_name = "S", value_parser = shadow, help = shadow_help(), help_heading = "Scene")]
-    shadow: Option<Shadow>,
+    pub(super) shadow: Option<Shadow>,
+
+    #[arg(long, value_name = "M", value_parser = shading, help = shading_help(), help_heading = "Scene")]
+    shading: Option<Shading>,
+
+    /// Fewest and most samples of a ray: of pom and pom-linear head-on and edge-on; MAX is also the layers of steep and the
+    /// linear steps of relief [default: the scene's]
+    #[arg(long, value_name = "MIN,MAX", value_parser = sample_range, allow_hyphen_values = true, help_heading = "Scene")]
+    samples: Option<[u32; 2]>,
+
+    #[arg(long, value_name = "HOW", value_parser = pom_counts, help = pom_counts_help(), help_heading = "Scene")]
+    pom_counts: Option<PomCounts>,
+
+    /// Whether relief shortens the offset of rays that graze: on or off [default: the scene's]
+    #[arg(long, value_name = "SWITCH", value_parser = switch, help_heading = "Scene")]
+    relief_bias: Option<bool>,
+
+    #[arg(long, value_name = "LEAF", value_parser = pyramid_leaf, help = pyramid_leaf_help(), help_heading = "Scene")]
+    pyramid_leaf: Option<PyramidLeaf>,
+
+    /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. exact stays exact
+    /// unless the scene says otherwise [default: the scene's]
+    #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
+    lod: Option<Detail>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -50,6 +77,18 @@ pub struct CommonOptions {
     #[arg(long, value_name = "METRES", value_parser = depth, allow_negative_numbers = true, help_heading = "Scene")]
     depth: Option<f32>,
 
+    /// What carries the relief: plane, box, cylinder, sphere, torus, or an OBJ, glTF or GLB file [default: the scene's]
+    #[arg(long, value_name = "NAME|FILE", value_parser = mesh, help_heading = "Scene")]
+    mesh: Option<MeshSource>,
+
+    /// Draw the relief as a solid with a silhouette of its own, which ends at its mesh's borders [default: the scene's]
+    #[arg(long, help_heading = "Scene")]
+    shell: bool,
+
+    /// Write the relief's depth instead of the polygon's, so that surfaces intersect as they should [default: the scene's]
+    #[arg(long, help_heading = "Scene")]
+    displaced_depth: bool,
+
     /// Eye and target, metres; replaces every camera motion [default: the scene's, which shows the whole plane]
     #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ", value_parser = camera, allow_hyphen_values = true, help_heading = "Scene")]
     camera: Option<CameraPlacement>,
@@ -61,6 +100,10 @@ pub struct CommonOptions {
     /// Half the angle that the light's disc spans, degrees, for the shadows cone and area [default: the scene's]
     #[arg(long, value_name = "DEGREES", value_parser = light_angle, allow_negative_numbers = true, help_heading = "Scene")]
     light_angle: Option<f32>,
+
+    /// What is shown of it.
+    #[command(flatten)]
+    pub display: DisplayOptions,
 
     /// Which machine, and how much it tells.
     #[command(flatten)]
@@ -75,8 +118,17 @@ impl CommonOptions {
             height_range: self.height_range,
             field: self.field,
             depth_metres: self.depth,
+            mesh: self.mesh.clone(),
+            shell: self.shell,
+            displaced_depth: self.displaced_depth,
             technique: self.technique,
             shadow: self.shadow,
+            lod: self.lod.map(|detail| detail.0),
+            shading: self.shading,
+            samples: self.samples,
+            pom_counts: self.pom_counts,
+            relief_depth_bias: self.relief_bias,
+            pyramid_leaf: self.pyramid_leaf,
             seed: self.seed,
             camera: self.camera,
             vertical_fov_degrees: self.fov,

@@ -4,6 +4,8 @@
 //! scenes are content, not arguments: `io::scene_file` refuses those.
 
 mod common;
+mod compare;
+mod display;
 mod modes;
 mod refusal;
 #[cfg(test)]
@@ -16,6 +18,8 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 pub use common::{CommonOptions, MachineOptions};
+pub use compare::{CompareOptions, Truth};
+pub use display::DisplayOptions;
 pub use modes::{AdaptersOptions, CaptureOptions, Channel, LiveOptions, StressOptions};
 pub use refusal::Refusal;
 
@@ -28,6 +32,8 @@ pub enum Command {
     Capture(CaptureOptions),
     /// Numbers.
     Stress(StressOptions),
+    /// Techniques and shadows against the truth.
+    Compare(CompareOptions),
     /// The list of GPU adapters.
     Adapters(AdaptersOptions),
     /// The list of scenes.
@@ -41,6 +47,7 @@ impl Command {
             Self::Live(options) => options.common.machine.verbosity(),
             Self::Capture(options) => options.common.machine.verbosity(),
             Self::Stress(options) => options.common.machine.verbosity(),
+            Self::Compare(options) => options.common.machine.verbosity(),
             Self::Adapters(options) => options.machine.verbosity(),
             Self::Scenes => Verbosity::Normal,
         }
@@ -78,6 +85,8 @@ enum Mode {
     Capture(CaptureOptions),
     /// Measure frames, without a window
     Stress(StressOptions),
+    /// Hold techniques and shadows against the truth: errors, steps, times, memory
+    Compare(CompareOptions),
     /// List the GPU adapters
     Adapters(AdaptersOptions),
     /// List the scenes
@@ -85,7 +94,7 @@ enum Mode {
 }
 
 /// The names of the modes.
-const MODES: [&str; 5] = ["live", "capture", "stress", "adapters", "scenes"];
+const MODES: [&str; 6] = ["live", "capture", "stress", "compare", "adapters", "scenes"];
 
 /// Reads the arguments, the program's own name first.
 pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Command, Refusal> {
@@ -98,6 +107,7 @@ pub fn parse(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -
         Some(Mode::Live(options)) => Command::Live(options),
         Some(Mode::Capture(options)) => Command::Capture(options),
         Some(Mode::Stress(options)) => Command::Stress(options),
+        Some(Mode::Compare(options)) => options.checked().map(Command::Compare).map_err(Refusal::Refused)?,
         Some(Mode::Adapters(options)) => Command::Adapters(options),
         Some(Mode::Scenes) => Command::Scenes,
     })

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
+use crate::mesh::{MeshSource, Shape};
+use crate::scene::{PomCounts, PyramidLeaf};
 use crate::surface::{Shadow, Technique};
 
 fn parse(line: &str) -> Result<Command, Refusal> {
@@ -46,7 +48,9 @@ fn without_a_mode_it_is_live() {
 fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
-         --height-range -5,7.5 --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --light-angle 2.5 --adapter llvm --backend gl -v \
+         --height-range -5,7.5 --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --light-angle 2.5 --lod 2.5 --adapter llvm --backend gl -v \
+         --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
     assert_eq!(options.common.scene, "a.toml");
@@ -62,10 +66,19 @@ fn values_arrive() {
             depth_metres: Some(0.25),
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
+            lod: Some(Some(2.5)),
+            shading: None,
+            samples: Some([4, 20]),
+            pom_counts: Some(PomCounts::Texels),
+            relief_depth_bias: Some(true),
+            pyramid_leaf: Some(PyramidLeaf::Nearest),
             seed: Some(u64::MAX),
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
             light_half_angle_degrees: Some(2.5),
+            mesh: Some(MeshSource::Shape(Shape::Torus)),
+            shell: true,
+            displaced_depth: true,
         }
     );
     assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));
@@ -77,7 +90,7 @@ fn values_arrive() {
 
 #[test]
 fn help_tells_every_default() {
-    for line in ["--help", "live --help", "capture --help", "stress --help", "adapters --help"] {
+    for line in ["--help", "live --help", "capture --help", "stress --help", "compare --help", "adapters --help"] {
         let Err(Refusal::Told(help)) = parse(line) else { panic!("{line}") };
         // Each flag up to the next, whatever the lines are broken into. Help and version do nothing unless asked.
         let flags = help.split("\n  ").map(|part| part.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -102,7 +115,7 @@ fn help_tells_every_default() {
 fn nonsense_is_refused_in_one_sentence() {
     let lines = [
         ("--sceen x", "--scene"),
-        ("fly", "known are live, capture, stress, adapters and scenes"),
+        ("fly", "known are live, capture, stress, compare, adapters and scenes"),
         ("captur --out DIR", "capture"),
         ("capture", "--out"),
         ("capture --out", "--out"),
@@ -113,8 +126,20 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live -v -q", "exclude"),
         ("live --frames 3", "--out"),
         ("live --out DIR", "--frames"),
-        ("live --technique exat", "did you mean `exact`, of normal, pom and exact?"),
+        (
+            "live --technique exat",
+            "did you mean `exact`, of normal, parallax, parallax-limited, steep, relief, pom-linear, pom, pyramid and exact?",
+        ),
+        ("live --pom-counts texel", "did you mean `texels`, of angle and texels?"),
+        ("live --relief-bias yes", "on and off"),
+        ("live --pyramid-leaf blurred", "nearest and refined"),
         ("live --technique", "--technique"),
+        ("live --shading gxx", "did you mean `ggx`, of phong and ggx?"),
+        ("live --view nomrals", "did you mean `normals`"),
+        ("capture --out DIR --view", "--view"),
+        ("live --split pmo", "did you mean `pom`"),
+        ("live --split pom:hrad", "did you mean `hard`"),
+        ("live --split pom@2", "--split"),
         ("live --shadow soft", "none, steep, hard, pom-soft, cone and area"),
         ("live --backend vulcan", "did you mean `vulkan`"),
         ("live --adapter=", "--adapter"),
@@ -125,11 +150,14 @@ fn nonsense_is_refused_in_one_sentence() {
         ("seed", "-1 1.5 x 18446744073709551616"),
         ("size", "0x5 5x0 5 5x 5x5x5 -5x5 5.5x5 4294967296x1 axb"),
         ("field", "0 0x5 5x0 -5 5.5 5x x 4294967296"),
+        ("samples", "8 0,5 5,4 -1,5 1.5,5 1,65537 1,2,3 a,b ,"),
         ("height-range", "1,1 5,1 1 1,2,3 nan,1 0,inf a,b , -1e39,1e39"),
         ("depth", "0 -1 nan inf x 1e9"),
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
+        ("gain", "0 -1 nan inf x 1e9"),
         ("fov", "0 -45 180 nan inf x"),
         ("light-angle", "0 -1 16 nan inf x"),
+        ("lod", "-1 17 nan on x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),
@@ -151,6 +179,77 @@ fn nonsense_is_refused_in_one_sentence() {
             Err(Refusal::Refused(sentence)) => {
                 assert!(sentence.contains(&part), "{line}: {sentence}");
                 assert!(!sentence.contains('\n') && !sentence.contains("``"), "{line}: {sentence}");
+            }
+            other => panic!("{line}: {other:?}"),
+        }
+    }
+}
+
+fn compare(line: &str) -> CompareOptions {
+    match parse(&format!("compare {line}")) {
+        Ok(Command::Compare(options)) => options,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+#[test]
+fn a_comparison_compares_everything_unless_told() {
+    let options = compare("");
+    assert_eq!((options.frames, options.warmup, options.gain, options.truth), (15, 0, 1.0, Truth::Exact));
+    assert_eq!(options.techniques(), Technique::ALL);
+    assert_eq!(options.shadows(Shadow::PomSoft), [Shadow::PomSoft]);
+    assert_eq!(
+        (options.truth_shadow, &options.out, &options.csv, &options.json, &options.check),
+        (None, &None, &None, &None, &None)
+    );
+    assert!(options.view_from.is_empty() && options.sweep_samples().is_empty() && options.sweep_fields().is_empty());
+    assert_eq!(compare("--technique pom").techniques(), [Technique::Pom]);
+}
+
+#[test]
+fn a_comparison_takes_lists() {
+    let options = compare(
+        "--techniques pom,exact,pom --shadows hard,none --view-from 0,1,1,0,0,0 --view-from -1,.5,0,0,0,0 --truth reference \
+         --truth-shadow none --sweep-samples 16,4,16 --gain 2.5 --out D --csv a --json b --check c --frames 3 --warmup 9",
+    );
+    assert_eq!(options.techniques(), [Technique::Pom, Technique::Exact]);
+    assert_eq!(options.shadows(Shadow::PomSoft), [Shadow::Hard, Shadow::None]);
+    assert_eq!(options.view_from[1], CameraPlacement { eye: [-1.0, 0.5, 0.0], target: [0.0; 3] });
+    assert_eq!((options.truth, options.truth_shadow), (Truth::Reference, Some(Shadow::None)));
+    assert_eq!(options.sweep_samples(), [4, 16]);
+    assert_eq!((options.gain, options.frames, options.warmup), (2.5, 3, 9));
+    assert_eq!(compare("--sweep-fields 512,64").sweep_fields(), [64, 512]);
+}
+
+#[test]
+fn a_comparison_that_makes_no_sense_is_refused_in_one_sentence() {
+    for (line, part) in [
+        ("--techniques pom,exat", "did you mean `exact`"),
+        ("--techniques pom,", "known are normal"),
+        ("--techniques pom --technique exact", "exclude each other"),
+        ("--shadows soft", "known are none"),
+        ("--shadows none --shadow hard", "exclude each other"),
+        ("--view-from 1,2,3", "six numbers"),
+        ("--view-from 0,1,1,0,0,0 --camera 0,1,1,0,0,0", "exclude each other"),
+        ("--truth exat", "did you mean `exact`"),
+        ("--truth-shadow soft", "known are none"),
+        ("--frames 0", "--frames"),
+        ("--warmup -1", "--warmup"),
+        ("--sweep-samples 4,0", "--sweep-samples"),
+        ("--sweep-samples 4,-8", "--sweep-samples"),
+        ("--sweep-samples 65537", "from 1 to 65536"),
+        ("--sweep-fields 0", "--sweep-fields"),
+        ("--sweep-fields 8x8", "--sweep-fields"),
+        ("--sweep-fields 64 --sweep-samples 4", "exclude each other"),
+        ("--gain 0", "--gain"),
+        ("--gain nan", "--gain"),
+        ("--json a --check a", "give `--check` another file"),
+        ("--csv a --json a", "give them two"),
+        ("--check=", "--check"),
+    ] {
+        match parse(&format!("compare {line}")) {
+            Err(Refusal::Refused(sentence)) => {
+                assert!(sentence.contains(part) && !sentence.contains('\n') && !sentence.contains("``"), "{line}: {sentence}");
             }
             other => panic!("{line}: {other:?}"),
         }

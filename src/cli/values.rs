@@ -1,19 +1,51 @@
 //! The text of a value to the value, or else the rest of the sentence "`--flag` cannot be `text`: …".
 
-use super::Channel;
+use super::{Channel, Truth};
 use crate::io::scene_file::{CameraPlacement, FieldSize};
-use crate::scene;
+use crate::mesh::MeshSource;
+use crate::scene::{self, PomCounts, PyramidLeaf};
 use crate::suggest;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 pub(super) fn technique_help() -> String {
-    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
-    format!("How the surface is traced: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+    format!("How the surface is traced: {} [default: the scene's]", technique_names("or"))
 }
 
 pub(super) fn shadow_help() -> String {
+    format!("The shadow upon it: {} [default: the scene's]", shadow_names("or"))
+}
+
+pub(super) fn techniques_help() -> String {
+    format!("Techniques to compare, of {} [default: all of them, or that of --technique]", technique_names("and"))
+}
+
+pub(super) fn shadows_help() -> String {
+    format!("Shadows to compare each of them with, of {} [default: the scene's, or that of --shadow]", shadow_names("and"))
+}
+
+fn technique_names(conjunction: &str) -> String {
+    let names: Vec<_> = Technique::ALL.iter().map(|choice| choice.name()).collect();
+    suggest::enumerate(&names, conjunction)
+}
+
+fn shadow_names(conjunction: &str) -> String {
     let names: Vec<_> = Shadow::ALL.iter().map(|choice| choice.name()).collect();
-    format!("The shadow upon it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+    suggest::enumerate(&names, conjunction)
+}
+
+pub(super) fn shading_help() -> String {
+    let names: Vec<_> = Shading::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What light does to it: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+/// One of a list, by its name.
+pub(super) fn one_of<T: Copy>(kind: &str, text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
+    let names: Vec<_> = all.iter().map(|&choice| name(choice)).collect();
+    all.iter().copied().find(|&choice| name(choice) == text).ok_or_else(|| suggest::unknown(kind, text, &names))
+}
+
+pub(super) fn shading(text: &str) -> Result<Shading, String> {
+    one_of("shading", text, Shading::ALL, Shading::name)
 }
 
 pub(super) fn technique(text: &str) -> Result<Technique, String> {
@@ -26,10 +58,80 @@ pub(super) fn shadow(text: &str) -> Result<Shadow, String> {
     Shadow::from_name(text).ok_or_else(|| suggest::unknown("shadow", text, &names))
 }
 
+pub(super) fn pom_counts_help() -> String {
+    let names = PomCounts::ALL.iter().map(|choice| choice.name()).collect::<Vec<_>>();
+    format!(
+        "How pom and pom-linear choose their counts: {} (one for each that the offset crosses, MIN of --samples at the least) \
+         [default: the scene's]",
+        suggest::enumerate(&names, "or")
+    )
+}
+
+pub(super) fn pom_counts(text: &str) -> Result<PomCounts, String> {
+    let names: Vec<_> = PomCounts::ALL.iter().map(|choice| choice.name()).collect();
+    let found = PomCounts::ALL.iter().copied().find(|choice| choice.name() == text);
+    found.ok_or_else(|| suggest::unknown("way to count", text, &names))
+}
+
+pub(super) fn pyramid_leaf_help() -> String {
+    let names: Vec<_> = PyramidLeaf::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What pyramid makes of the texel that a ray meets: {} [default: the scene's]", suggest::enumerate(&names, "or"))
+}
+
+pub(super) fn pyramid_leaf(text: &str) -> Result<PyramidLeaf, String> {
+    let names: Vec<_> = PyramidLeaf::ALL.iter().map(|choice| choice.name()).collect();
+    let found = PyramidLeaf::ALL.iter().copied().find(|choice| choice.name() == text);
+    found.ok_or_else(|| suggest::unknown("leaf", text, &names))
+}
+
+pub(super) fn switch(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(suggest::unknown("switch", text, &["on", "off"])),
+    }
+}
+
+/// Fewest and most samples of a ray, within what a scene may say.
+pub(super) fn sample_range(text: &str) -> Result<[u32; 2], String> {
+    let counts = text.split_once(',').map(|(least, most)| (least.trim().parse(), most.trim().parse()));
+    match counts {
+        Some((Ok(least), Ok(most))) if 1 <= least && least <= most && most <= scene::SAMPLES_MAX => Ok([least, most]),
+        _ => Err(format!(
+            "it must be two whole numbers from 1 to {}, the first no more than the second, like 8,50",
+            scene::SAMPLES_MAX
+        )),
+    }
+}
+
+/// A threshold of the level of detail, or none: off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Detail(pub(super) Option<f32>);
+
+#[expect(clippy::cast_possible_truncation, reason = "a mip level has no use for more digits")]
+pub(super) fn lod(text: &str) -> Result<Detail, String> {
+    match text {
+        "off" => Ok(Detail(None)),
+        _ => number_within(text, scene::LOD_THRESHOLD)
+            .map(|level| Detail(Some(level as f32)))
+            .map_err(|problem| format!("{problem}, or off")),
+    }
+}
+
+pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
+    text.parse()
+}
+
 pub(super) fn channel(text: &str) -> Result<Channel, String> {
     let names = Channel::ALL.map(Channel::name);
     let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
     found.ok_or_else(|| suggest::unknown("channel", text, &names))
+}
+
+pub(super) fn truth(text: &str) -> Result<Truth, String> {
+    let names = Truth::ALL.map(Truth::name);
+    let found = Truth::ALL.into_iter().find(|truth| truth.name() == text);
+    found.ok_or_else(|| suggest::unknown("truth", text, &names))
 }
 
 pub(super) fn backend(text: &str) -> Result<wgpu::Backends, String> {
@@ -65,6 +167,16 @@ fn positive_u32(text: &str) -> Result<u32, String> {
         Ok(number) if number > 0 => Ok(number),
         _ => Err(format!("it must be a whole number from 1 to {}", u32::MAX)),
     }
+}
+
+/// Samples along a ray.
+pub(super) fn samples(text: &str) -> Result<u32, String> {
+    let count = positive_u32(text).ok().filter(|count| *count <= scene::SAMPLES_MAX);
+    count.ok_or_else(|| format!("each must be a whole number from 1 to {}", scene::SAMPLES_MAX))
+}
+
+pub(super) fn field_width(text: &str) -> Result<u32, String> {
+    positive_u32(text).map_err(|_| format!("each must be a whole number from 1 to {}", u32::MAX))
 }
 
 pub(super) fn frames(text: &str) -> Result<u32, String> {
@@ -120,6 +232,10 @@ pub(super) fn fov(text: &str) -> Result<f64, String> {
 #[expect(clippy::cast_possible_truncation, reason = "the light is f32 throughout")]
 pub(super) fn light_angle(text: &str) -> Result<f32, String> {
     number_within(text, scene::LIGHT_HALF_ANGLE_DEGREES).map(|number| number as f32)
+}
+
+pub(super) fn gain(text: &str) -> Result<f64, String> {
+    number_within(text, scene::Range::above(0.0, 1e6, ""))
 }
 
 pub(super) fn dt(text: &str) -> Result<f64, String> {

@@ -1,12 +1,17 @@
 //! Bases: the heights that a field starts from, made on the CPU once.
 //!
 //! Procedural bases are functions of the position in metres and of the seed, so that another field size is a finer look at the
-//! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl` and `…_cobble.wgsl`).
+//! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl`, `…_cobble.wgsl`
+//! and `…_grass.wgsl`).
+
+mod strands;
 
 use std::f64::consts::TAU;
 
+pub use strands::DAISY_METRES;
+
 use super::wave;
-use crate::scene::{Base, Boundary, Scene};
+use crate::scene::{Addressing, Base, Boundary, Scene};
 
 /// Length and height of a brick with its joint, metres: the metric format of 215 × 65 mm.
 pub const BRICK_METRES: [f32; 2] = [0.225, 0.075];
@@ -36,11 +41,17 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
     match &scene.base {
         Base::Flat { height: level } => Some(vec![*level; width as usize * height as usize]),
         Base::Bricks {} => Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y) / depth_metres)),
-        Base::Cobbles {} => Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y) / depth_metres)),
+        Base::Cobbles {} => {
+            // Where the field wraps, so do the stones.
+            let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());
+            Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y, tile) / depth_metres))
+        }
         Base::Terrain {} => {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
         }
+        Base::Fur {} => Some(strands::fur(scene.field.size, texel_metres, scene.seed)),
+        Base::Grass {} => Some(strands::grass(scene.field.size, texel_metres, scene.seed)),
         Base::Image { .. } => None,
     }
 }
@@ -49,7 +60,7 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
 pub fn rest_height(base: &Base) -> f32 {
     match base {
         Base::Flat { height } => *height,
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Image { .. } => 1.0,
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} | Base::Image { .. } => 1.0,
     }
 }
 
@@ -100,16 +111,23 @@ fn pits(x: f64, y: f64) -> f64 {
     smoothstep(0.66, 0.80, fractal_noise(x * 210.0, y * 210.0, 18, 2))
 }
 
-/// Depth below the tops of the stones, metres.
-fn cobbles_depth_metres(x: f64, y: f64) -> f64 {
+/// Depth below the tops of the stones, metres; where a field of this extent is a `tile` that repeats, a whole number fits it.
+fn cobbles_depth_metres(x: f64, y: f64, tile: Option<[f64; 2]>) -> f64 {
     let spacing = f64::from(COBBLE_METRES);
-    let position = [x / spacing, y / spacing];
+    let cells = tile.map(|tile| tile.map(|extent| (extent / spacing).round().max(1.0)));
+    let scale = |axis: usize| tile.zip(cells).map_or(1.0 / spacing, |(tile, cells)| cells[axis] / tile[axis]);
+    let position = [x * scale(0), y * scale(1)];
+    let home_of = |cell: [i32; 2]| match cells {
+        Some(cells) => [0, 1].map(|axis| cell[axis].rem_euclid(cells[axis] as i32)),
+        None => cell,
+    };
     let home = position.map(|coordinate| coordinate.floor() as i32);
     let (mut nearest, mut second, mut stone) = (f64::INFINITY, f64::INFINITY, home);
     for dy in -1..=1 {
         for dx in -1..=1 {
-            let cell = [home[0] + dx, home[1] + dy];
-            let centre = |axis: usize, salt| f64::from(cell[axis]) + 0.5 + 0.55 * (hash_cell(cell, salt) - 0.5);
+            let at = [home[0] + dx, home[1] + dy];
+            let cell = home_of(at);
+            let centre = |axis: usize, salt| f64::from(at[axis]) + 0.5 + 0.55 * (hash_cell(cell, salt) - 0.5);
             let distance = (position[0] - centre(0, 41)).hypot(position[1] - centre(1, 42));
             if distance < nearest {
                 (second, nearest, stone) = (nearest, distance, cell);

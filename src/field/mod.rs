@@ -11,15 +11,16 @@
 //! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | height | r32float | 4 | the height field, 0 to 1 | compose | normals, pyramid, surface |
-//! | normal | rgba16float | 8 | unit normal in field space (u right, v down, out); w unused | normals | surface |
+//! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
 //!
-//! Together 34⅓ bytes a texel. A scene without waves has the wave's rows at 1×1. The bound on the sum is 40.
+//! Together 37 bytes a texel. A scene without waves has the wave's rows at 1×1. The bound on the sum is 40.
 
 pub mod base;
 pub mod bins;
 pub mod compose;
 pub mod dirty;
+pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
@@ -66,8 +67,8 @@ roles! {
     WaveState = "wave", R32Float, mips false, LAYER, "displacement, amplitudes", from "wave", to "wave, compose";
     /// The height field.
     Height = "height", R32Float, mips false, LAYER, "height, 0 to 1", from "compose", to "normals, pyramid, surface";
-    /// Its normals.
-    Normal = "normal", Rgba16Float, mips false, LAYER, "unit normal in field space", from "normals", to "surface";
+    /// Its normals and heights, and the means of both over ever larger texels.
+    Normal = "normal", Rgba16Float, mips true, LAYER, "normal in field space, height", from "normals, normal mips", to "surface";
     /// Its bounds.
     Pyramid = "pyramid", R32Float, mips true, LAYER, "maximum over a node", from "pyramid", to "surface";
 }

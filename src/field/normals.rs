@@ -1,7 +1,7 @@
 //! Normals: the slope of the height field, by a 3×3 Sobel gradient (\[POM\] §4, "dynamic normals").
 //!
-//! Reads [`Height`](super::Height), writes every texel of [`Normal`](super::Normal) in the regions given. 4 bytes in, 8 out a
-//! texel, the halo apart. Shader: `shaders/field/normals.wgsl`. Specification: [`crate::reference::normals`].
+//! Reads [`Height`](super::Height), writes every texel of [`Normal`](super::Normal)'s level 0 in the regions given, with the height
+//! beside it: [`normal_mips`](super::normal_mips) averages both. 4 bytes in, 8 out a texel, the halo apart. Shader: `shaders/field/normals.wgsl`. Specification: [`crate::reference::normals`].
 
 use super::{Field, Region};
 use crate::gpu::kernel::workgroups;
@@ -83,7 +83,7 @@ impl Normals {
             &[
                 params.binding(),
                 wgpu::BindingResource::TextureView(&field.height.view),
-                wgpu::BindingResource::TextureView(&field.normal.view),
+                wgpu::BindingResource::TextureView(&field.normal.levels[0]),
             ],
         );
         NormalsSet { params, group, size: field.size, addressing: field.addressing }

@@ -42,6 +42,20 @@ impl Recorder<'_> {
 
     /// Runs `record` in a render pass of this name, which overwrites the whole target.
     pub fn render(&mut self, name: &str, target: &wgpu::TextureView, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+        self.render_onto(name, target, None, false, record);
+    }
+
+    /// The same with a depth buffer, which begins at 0, infinitely far, if there is one; `keeps` says that it adds to what the
+    /// target holds.
+    pub fn render_onto(
+        &mut self,
+        name: &str,
+        target: &wgpu::TextureView,
+        depth: Option<&wgpu::TextureView>,
+        keeps: bool,
+        record: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
+        let load = if keeps { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::BLACK) };
         self.pass(name, |encoder, query| {
             record(&mut encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(name),
@@ -49,8 +63,9 @@ impl Recorder<'_> {
                     view: target,
                     depth_slice: None,
                     resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
                 })],
+                depth_stencil_attachment: depth.map(depth_attachment),
                 timestamp_writes: query.render_pass_timestamp_writes(),
                 ..Default::default()
             }));
@@ -73,6 +88,15 @@ impl Recorder<'_> {
         let recorded = std::mem::replace(self.encoder, self.gpu.encoder("alone"));
         self.gpu.queue.submit([recorded.finish()]);
         time(self.gpu)
+    }
+}
+
+/// A depth buffer that begins at 0, infinitely far, and is not kept.
+pub fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+        stencil_ops: None,
     }
 }
 

@@ -47,7 +47,7 @@ pub enum ImageError {
 }
 
 /// The cause in words, and what to do about it.
-pub(super) fn explain(error: &std::io::Error) -> String {
+pub(crate) fn explain(error: &std::io::Error) -> String {
     let advice = match error.kind() {
         ErrorKind::NotFound => "there is no such file, check the path",
         ErrorKind::PermissionDenied => "permission denied, make it readable",

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::atomic::{self, WriteError};
 use crate::camera::Camera;
@@ -47,7 +47,7 @@ pub struct Manifest {
 }
 
 /// The adapter that drew the frames.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Adapter {
     /// Its name.
     pub name: String,

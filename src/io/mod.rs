@@ -1,9 +1,10 @@
-//! Files: height images and scenes in; pictures, channels and the manifest out.
+//! Files: height images, meshes and scenes in; pictures, channels and the manifest out.
 
 pub mod atomic;
 pub mod exr_file;
 pub mod height_image;
 pub mod manifest;
+pub mod mesh_file;
 pub mod output_dir;
 pub mod png_file;
 mod resample;

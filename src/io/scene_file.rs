@@ -4,15 +4,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::height_image::{self, HeightImage, ImageError};
-use crate::scene::{Base, Camera, Scene, SceneError, VERSION};
+use super::mesh_file::{self, MeshError};
+use crate::mesh::{Mesh, MeshSource};
+use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, VERSION};
 use crate::suggest;
-use crate::surface::{Shadow, Technique};
+use crate::surface::{Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 3] = [
+pub const EMBEDDED: [(&str, &str); 6] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
+    ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
+    ("fur", include_str!("../../scenes/fur.toml")),
+    ("grass", include_str!("../../scenes/grass.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.
@@ -47,10 +52,28 @@ pub struct SceneOverrides {
     pub field: Option<FieldSize>,
     /// Depth of h = 0, metres.
     pub depth_metres: Option<f32>,
+    /// The mesh that carries the relief.
+    pub mesh: Option<MeshSource>,
+    /// Draw its shell.
+    pub shell: bool,
+    /// Write the relief's depth.
+    pub displaced_depth: bool,
     /// How the surface is traced.
     pub technique: Option<Technique>,
     /// The shadow upon it.
     pub shadow: Option<Shadow>,
+    /// Level of detail from this mip level on; `Some(None)` is off.
+    pub lod: Option<Option<f32>>,
+    /// What light does to it.
+    pub shading: Option<Shading>,
+    /// Fewest and most samples of a ray, of every technique that takes samples.
+    pub samples: Option<[u32; 2]>,
+    /// How `pom` and `pom-linear` choose their counts.
+    pub pom_counts: Option<PomCounts>,
+    /// Whether `relief` shortens the offset of rays that graze.
+    pub relief_depth_bias: Option<bool>,
+    /// What `pyramid` makes of a leaf.
+    pub pyramid_leaf: Option<PyramidLeaf>,
     /// Seed of everything random.
     pub seed: Option<u64>,
     /// A camera in place of the scene's and all its motion.
@@ -66,6 +89,8 @@ pub struct SceneOverrides {
 pub struct LoadedScene {
     /// The scene, with the field's size as it will be.
     pub scene: Scene,
+    /// The mesh that carries the relief; none: the plane.
+    pub mesh: Option<Mesh>,
     image: Option<HeightImage>,
 }
 
@@ -113,6 +138,9 @@ pub enum SceneFileError {
     /// Its image is unfit.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// Its mesh is unfit.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// There is nothing that a range could map.
     #[error("--height-range maps the values of an image, and this scene has none: name one with --height")]
     RangeWithoutImage,
@@ -161,7 +189,19 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
     if overrides.camera.is_none() && !given.camera {
         scene.camera = scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
     }
-    Ok(LoadedScene { scene, image })
+    let mesh = match &scene.mesh {
+        Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
+        None => None,
+    };
+    Ok(LoadedScene { scene, mesh, image })
+}
+
+fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
+    let mesh = mesh_file::load(&settings.source, tile_metres)?.tiled(settings.tiles);
+    Ok(match settings.radius_metres {
+        Some(radius) => mesh.fitted(radius),
+        None => mesh,
+    })
 }
 
 /// What a file says itself, where its absence means something else than a default value.
@@ -211,6 +251,9 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
     {
         *image = path.parent().unwrap_or(Path::new("")).join(&image);
     }
+    if let Some(mesh) = &mut scene.mesh {
+        mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
+    }
     let field_size = table.get("field").is_some_and(|field| field.get("size").is_some());
     Ok((scene, Given { field_size, camera: table.contains_key("camera") }))
 }
@@ -243,17 +286,44 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(depth) = overrides.depth_metres {
         scene.plane.depth_metres = depth;
     }
+    if let Some(source) = &overrides.mesh {
+        scene.mesh = Some(scene::Mesh { source: source.clone(), tiles: [1.0, 1.0], ..scene::Mesh::default() });
+    }
+    scene.trace.shell |= overrides.shell;
+    scene.trace.displaced_depth |= overrides.displaced_depth;
     if let Some(technique) = overrides.technique {
         scene.trace.technique = technique;
     }
     if let Some(shadow) = overrides.shadow {
         scene.trace.shadow = shadow;
     }
+    if let Some(threshold) = overrides.lod {
+        scene.lod.threshold = threshold;
+    }
+    if let Some(shading) = overrides.shading {
+        scene.material.model = shading;
+    }
+    if let Some([least, most]) = overrides.samples {
+        let trace = &mut scene.trace;
+        (trace.pom_samples_min, trace.pom_samples_max) = (least, most);
+        // Techniques with one count for all angles take what the others take of a ray that grazes.
+        (trace.steep_layers, trace.relief_linear_steps) = (most, most);
+    }
+    if let Some(counts) = overrides.pom_counts {
+        scene.trace.pom_counts = counts;
+    }
+    if let Some(bias) = overrides.relief_depth_bias {
+        scene.trace.relief_depth_bias = bias;
+    }
+    if let Some(leaf) = overrides.pyramid_leaf {
+        scene.trace.pyramid_leaf = leaf;
+    }
     if let Some(seed) = overrides.seed {
         scene.seed = seed;
     }
     if let Some(CameraPlacement { eye, target }) = overrides.camera {
-        scene.camera = Camera { eye, target, orbit_degrees_per_second: 0.0, ..scene.camera };
+        let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+        scene.camera = Camera { eye, target, ..still };
     }
     if let Some(fov) = overrides.vertical_fov_degrees {
         scene.camera.vertical_fov_degrees = fov;

@@ -2,19 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use super::{ModeError, load_scene, open_device, progress, start, wait_for, wait_for_gpu};
+use super::headless::Headless;
+use super::{ModeError, progress, wait_for, wait_for_gpu};
 use crate::camera::Camera;
 use crate::cli::{CaptureOptions, Channel, Verbosity};
 use crate::clock::{Clock, Pace};
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, Readback};
 use crate::io::manifest::{self, Manifest};
-use crate::io::output_dir::OutputDir;
+use crate::io::output_dir::{OutputDir, Owner};
 use crate::io::{exr_file, png_file};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::channels::Channel as Numbers;
-use crate::surface::{Channels, Shows, View};
+use crate::surface::{Channels, Choice, View};
 
 /// The format of the picture that becomes a PNG.
 pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -25,15 +26,10 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormS
 ///
 /// The scene, its image, the adapter, its limits or the output directory are unfit, in this order; nothing is left behind.
 pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeError> {
-    let loaded = load_scene(&options.common)?;
-    let gpu = open_device(&options.common)?;
-    crate::frame::check_limits(&gpu, &loaded.scene, options.common.image_size)?;
-    let start = start(&loaded);
+    let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
-    let mut frame = Frame::new(&gpu, &start, options.common.image_size, PICTURE_FORMAT)?;
-    let picture = Picture::new(&gpu, options.common.image_size);
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
-    let directory = OutputDir::create(&options.out)?;
+    let directory = OutputDir::create(&options.out, Owner::Capture)?;
 
     let mut clock = Clock::new(frame.step_seconds());
     let mut manifest = Manifest::new(scene, &gpu.adapter.get_info(), options.common.image_size, options.dt, options.warmup);
@@ -43,7 +39,8 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
         let tick = clock.advance(Pace::Fixed { dt_seconds: options.dt });
         let strokes = Strokes::of_scene(scene, scene.seed, &tick);
         let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+        let input =
+            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
         let file_index = number.checked_sub(u64::from(options.warmup));
         let target = file_index.map(|_| picture.view());
         let mut encoder = gpu.encoder("capture");
@@ -71,7 +68,7 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
 /// The device was lost, or a file cannot be written; nothing is left behind.
 pub fn write_last_frame(
     gpu: &Gpu,
-    frame: &Frame,
+    frame: &mut Frame,
     input: &FrameInput<'_>,
     dt_seconds: f64,
     warmup: u32,
@@ -79,7 +76,7 @@ pub fn write_last_frame(
 ) -> Result<(), ModeError> {
     let picture = Picture::new(gpu, frame.image_size());
     let channels = ChannelFiles::default();
-    let directory = OutputDir::create(out)?;
+    let directory = OutputDir::create(out, Owner::Capture)?;
     picture.draw(gpu, frame, input)?;
     let files = write_files(gpu, frame, &picture, &channels, input, &directory, 0)?;
     let mut manifest = Manifest::new(frame.scene(), &gpu.adapter.get_info(), frame.image_size(), dt_seconds, warmup);
@@ -117,10 +114,10 @@ impl Picture {
     /// # Errors
     ///
     /// The presentation cannot be built.
-    pub fn draw(&self, gpu: &Gpu, frame: &Frame, input: &FrameInput<'_>) -> Result<(), ModeError> {
+    pub fn draw(&self, gpu: &Gpu, frame: &mut Frame, input: &FrameInput<'_>) -> Result<(), ModeError> {
         let present = crate::present::Present::new(gpu, PICTURE_FORMAT)?;
         let mut encoder = gpu.encoder("picture");
-        frame.show_with(gpu, &mut encoder, &present, input, &self.view);
+        frame.show_with(gpu, &mut encoder, &present, input, &self.view)?;
         gpu.queue.submit([encoder.finish()]);
         Ok(())
     }
@@ -165,7 +162,7 @@ impl ChannelFiles {
         let wanted: Vec<_> = wanted.iter().copied().filter(|channel| *channel != Channel::Color).collect();
         let pass = match wanted.is_empty() {
             true => None,
-            false => Some(Channels::new(gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?),
+            false => Some(Channels::new(gpu, Choice::of(scene))?),
         };
         Ok(Self { wanted, pass })
     }
@@ -205,7 +202,13 @@ fn write_files(
 /// The device was lost.
 pub fn read_channels(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<Vec<Numbers>, ModeError> {
     let [width, height] = frame.image_size();
-    let view = View::new(frame.scene(), input.camera, input.tick.time_seconds, [width, height], input.shows);
+    if let Some(stage) = frame.stage() {
+        let parts = stage.request_channels(gpu, &frame.field, &input.seen(frame.scene()), [width, height])?;
+        let parts = parts.iter().map(|part| wait_for(gpu, part)).collect::<Result<Vec<_>, _>>()?;
+        let parts: Vec<Vec<[f32; 4]>> = parts.iter().map(|bytes| bytemuck::pod_collect_to_vec(bytes)).collect();
+        return Ok((0..parts[0].len()).map(|i| Numbers::from_parts([parts[0][i], parts[1][i], parts[2][i]])).collect());
+    }
+    let view = View::new(frame.scene(), input.camera, input.tick.time_seconds, [width, height], input.display);
     let rows = Channels::rows_per_band(gpu, width);
     let mut numbers = Vec::with_capacity(width as usize * height as usize);
     for first_row in (0..height).step_by(rows as usize) {

@@ -1,9 +1,12 @@
-//! How the frame is run: live in a window, to files, to numbers. The modes differ in who owns the clock and where the picture goes.
+//! How the frame is run: live in a window, to files, to numbers, against the truth. The modes differ in who owns the clock and where the picture goes.
 
 pub mod adapters;
 pub mod capture;
+pub mod compare;
+pub mod headless;
 pub mod live;
 mod progress;
+pub mod statistics;
 pub mod stress;
 
 use crate::cli::CommonOptions;
@@ -29,6 +32,12 @@ pub enum ModeError {
     /// A pass cannot be made.
     #[error(transparent)]
     Shader(#[from] ShaderError),
+    /// The specification does not say what the scene shows.
+    #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
+    NoReference,
+    /// The table does not hold against an earlier one.
+    #[error(transparent)]
+    Check(#[from] compare::check::CheckError),
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -68,7 +77,7 @@ pub fn start(loaded: &LoadedScene) -> Start {
         // Only an image has no heights of its own.
         None => base::heights(&loaded.scene).unwrap_or_default(),
     };
-    Start::new(&loaded.scene, heights)
+    Start::new(&loaded.scene, heights, loaded.mesh.clone())
 }
 
 /// Waits for bytes on their way from the GPU.

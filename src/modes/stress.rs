@@ -1,41 +1,30 @@
 //! Stress: frames to numbers, headless.
 
 use std::fmt::Write as _;
-use std::sync::OnceLock;
 use std::time::Instant;
 
 use serde::Serialize;
 
-use super::capture::{PICTURE_FORMAT, Picture, read_channels};
-use super::{ModeError, load_scene, open_device, progress, start, wait_for, wait_for_gpu};
+use super::capture::read_channels;
+use super::headless::{self, Headless};
+use super::statistics::{Spread, Steps};
+use super::{ModeError, progress, wait_for, wait_for_gpu};
 use crate::camera::Camera;
 use crate::cli::{StressOptions, Verbosity};
 use crate::clock::{Clock, Pace};
 use crate::field;
 use crate::frame::{Frame, FrameInput};
-use crate::gpu::{Gpu, PassTime, Readback, Timer};
+use crate::gpu::{Gpu, PassTime, Readback};
 use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
 use crate::stroke::{self, Strokes};
-use crate::surface::channels::Channel;
-use crate::surface::{Channels, Shows};
+use crate::surface::{Channels, Choice};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
 const WARMUP_FRAMES: u64 = 5;
 
 /// Time from frame to frame, seconds.
 const DT_SECONDS: f64 = 1.0 / 60.0;
-
-/// Median, 95th percentile and minimum.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Spread {
-    /// The middle value.
-    pub median: f64,
-    /// Exceeded by one value in twenty.
-    pub p95: f64,
-    /// The smallest.
-    pub min: f64,
-}
 
 /// The time of one pass.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,20 +44,6 @@ pub struct FrameReport {
     pub gpu_ms: Option<Spread>,
 }
 
-/// Samples or nodes of the view rays.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct StepsReport {
-    /// Mean over the pixels that show the surface.
-    pub mean: f64,
-    /// 99th percentile.
-    pub p99: f64,
-    /// The most.
-    pub max: f64,
-    /// Pixels whose ray visited as many nodes as it may, and gave up: in the table only.
-    #[serde(skip)]
-    pub capped: usize,
-}
-
 /// All that a stress run measures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the names are the report's own; --help and the README say what they mean")]
@@ -82,7 +57,7 @@ pub struct Report {
     pub frames: u32,
     pub passes: Vec<PassReport>,
     pub frame: FrameReport,
-    pub steps_per_pixel: StepsReport,
+    pub steps_per_pixel: Steps,
     pub bytes_per_frame: f64,
     pub gb_per_s: f64,
     pub field_bytes_per_texel: f64,
@@ -96,17 +71,10 @@ pub struct Report {
 ///
 /// The scene, its image, the adapter, its limits or the JSON file are unfit.
 pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, ModeError> {
-    let loaded = load_scene(&options.common)?;
-    let gpu = open_device(&options.common)?;
-    crate::frame::check_limits(&gpu, &loaded.scene, options.common.image_size)?;
-    let start = start(&loaded);
+    let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
-    let mut frame = Frame::new(&gpu, &start, options.common.image_size, PICTURE_FORMAT)?;
-    if gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu {
-        frame.timer = Timer::alone(&gpu, milliseconds_when_idle);
-    }
-    let picture = Picture::new(&gpu, options.common.image_size);
-    let pass = Channels::new(&gpu, scene.trace.technique, scene.trace.shadow, scene.material.albedo)?;
+    frame.timer = headless::trusted_timer(&gpu);
+    let pass = Channels::new(&gpu, Choice::of(scene))?;
 
     if let Some(path) = &options.json {
         atomic::check(path)?;
@@ -116,14 +84,15 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
     let mut bytes = Vec::new();
     let total = WARMUP_FRAMES + u64::from(options.frames);
     let progress = progress::bar(total, &scene.name, verbosity == Verbosity::Quiet);
-    let mut steps = StepsReport::default();
+    let mut steps = Steps::default();
     for number in 0..total {
         let tick = clock.advance(Pace::Fixed { dt_seconds: DT_SECONDS });
         let mut strokes = Strokes::of_scene(scene, scene.seed, &tick);
         let (count, radius) = (options.stamps, options.stamp_radius);
         strokes.presses.extend(stroke::stress_discs(scene.seed, number, count, radius, scene.field.size));
         let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, shows: Shows::Picture };
+        let input =
+            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
         let mut encoder = gpu.encoder("stress");
         let recording = Instant::now();
         frame.record(&gpu, &mut encoder, &input, Some(picture.view()))?;
@@ -138,7 +107,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
             bytes.push(frame.field_traffic_bytes() as f64);
         }
         if number + 1 == total {
-            steps = count_steps(&gpu, &frame, &pass, &input)?;
+            steps = Steps::of(&read_channels(&gpu, &frame, &pass, &input)?);
         }
         progress.inc(1);
     }
@@ -171,14 +140,6 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
     Ok(table(&report))
 }
 
-/// Waits for the GPU and returns the time since the first call.
-pub fn milliseconds_when_idle(gpu: &Gpu) -> f64 {
-    static START: OnceLock<Instant> = OnceLock::new();
-    // A device that is lost says so at the end of the frame.
-    let _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
-    START.get_or_init(Instant::now).elapsed().as_secs_f64() * 1e3
-}
-
 /// What was measured, frame by frame.
 #[derive(Default)]
 struct Samples {
@@ -200,39 +161,14 @@ impl Samples {
     }
 
     fn passes(&self) -> Vec<PassReport> {
-        self.passes.iter().map(|(name, times)| PassReport { name: name.clone(), gpu_ms: spread(times) }).collect()
+        self.passes.iter().map(|(name, times)| PassReport { name: name.clone(), gpu_ms: Spread::of(times) }).collect()
     }
 
     fn frame(&self) -> FrameReport {
         // At least one frame was asked for, so there is a wall time.
         let nothing = Spread { median: 0.0, p95: 0.0, min: 0.0 };
-        FrameReport { wall_ms: spread(&self.wall_ms).unwrap_or(nothing), gpu_ms: spread(&self.gpu_ms) }
+        FrameReport { wall_ms: Spread::of(&self.wall_ms).unwrap_or(nothing), gpu_ms: Spread::of(&self.gpu_ms) }
     }
-}
-
-/// Median, 95th percentile and minimum; none of nothing.
-fn spread(values: &[f64]) -> Option<Spread> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let min = *sorted.first()?;
-    Some(Spread { median: quantile(&sorted, 0.5), p95: quantile(&sorted, 0.95), min })
-}
-
-/// The value below which so large a share of the sorted values lies (nearest rank).
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted[rank.clamp(1, sorted.len()) - 1]
-}
-
-fn count_steps(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<StepsReport, ModeError> {
-    let channels = read_channels(gpu, frame, pass, input)?;
-    // A ray that gave up is −1 less the steps that it took.
-    let taken = |pixel: &Channel| if pixel.steps < -1.0 { -1.0 - pixel.steps } else { pixel.steps };
-    let mut steps: Vec<f64> = channels.iter().map(|pixel| f64::from(taken(pixel))).filter(|steps| *steps >= 0.0).collect();
-    steps.sort_by(f64::total_cmp);
-    let Some(&max) = steps.last() else { return Ok(StepsReport::default()) };
-    let capped = channels.iter().filter(|pixel| pixel.steps < -1.0).count();
-    Ok(StepsReport { mean: steps.iter().sum::<f64>() / steps.len() as f64, p99: quantile(&steps, 0.99), max, capped })
 }
 
 /// How many texels composition clamped.

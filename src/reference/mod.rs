@@ -3,8 +3,14 @@
 //! Plain and readable comes first: nothing here shares a trick with the shaders, so that an error has to be made twice, in two
 //! ways, to go unnoticed. Heights are f32, as the textures hold them; everything computed from them is f64.
 
+pub mod balls;
 pub mod compose;
+pub mod level_of_detail;
 pub mod light_disc;
+pub mod light_ggx;
+pub mod light_phong;
+pub mod march;
+pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
@@ -14,10 +20,19 @@ pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
 pub mod shadow_steep;
+pub mod shell;
+pub mod sky;
 pub mod stamp;
 pub mod trace_exact;
+pub mod trace_mesh;
 pub mod trace_normal;
+pub mod trace_parallax;
+pub mod trace_parallax_limited;
 pub mod trace_pom;
+pub mod trace_pom_linear;
+pub mod trace_pyramid;
+pub mod trace_relief;
+pub mod trace_steep;
 pub mod traversal;
 pub mod wave;
 
@@ -108,7 +123,7 @@ impl Ray {
     }
 }
 
-/// Where a ray meets the surface.
+/// What became of a ray: where it meets the surface, or where it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Its parameter.
@@ -119,11 +134,18 @@ pub struct Hit {
     pub height: f64,
     /// Samples or cells that it took to find.
     pub steps: u32,
+    /// [`probe::Hit::HIT`], or what [`Ray::ends`] says of a ray that met nothing.
+    pub status: u32,
 }
 
 impl Hit {
     /// The point of a ray at t.
     pub fn on(ray: &Ray, t: f64, steps: u32) -> Self {
-        Self { t, lattice: ray.lattice_at(t), height: ray.height_at(t), steps }
+        Self { t, lattice: ray.lattice_at(t), height: ray.height_at(t), steps, status: probe::Hit::HIT }
+    }
+
+    /// The end of a ray that met nothing before.
+    pub fn end(ray: &Ray, steps: u32) -> Self {
+        Self { status: ray.ends, ..Self::on(ray, ray.t_end.into(), steps) }
     }
 }

@@ -22,9 +22,13 @@ impl Scene {
 
     /// The scene's camera, moved away from its target as far as is needed to see the whole plane, all the way round its orbit.
     ///
-    /// `aspect` is the picture's width over its height. A camera that sees the plane stays where it is.
+    /// `aspect` is the picture's width over its height. A camera that sees the plane stays where it is, and so does one over a plane
+    /// that repeats its field: that is there to go on to the horizon.
     pub fn framing(&self, aspect: f64) -> Camera {
         let camera = &self.camera;
+        if self.plane.repeat != [1, 1] {
+            return camera.clone();
+        }
         let target = DVec3::from(camera.target);
         let from_target = DVec3::from(camera.eye) - target;
         let [x, z] = self.plane_size_metres().map(|extent| extent / 2.0);

@@ -2,16 +2,31 @@
 
 use std::fmt;
 
-use super::{Base, Camera, Light, Material, Obstacle, Scene, Shots, Trace, VERSION, Wave};
+use crate::surface::view::BALLS_MAX;
+
+use super::{
+    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Trace,
+    VERSION, Wave,
+};
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
 pub const DEPTH_METRES: Range = Range::above(0.0, 1e6, "metres");
 /// Vertical field of view of a camera.
 pub const VERTICAL_FOV_DEGREES: Range = Range { low: 0.0, high: 180.0, with_low: false, with_high: false, unit: "degrees" };
+/// What shines: a colour, its strength.
+const RADIANCE: Range = Range::from_to(0.0, 1e4, "");
 /// Half the angle that the light's disc spans. A wider one is no disc that a plane at right angles to its centre could stand for.
 pub const LIGHT_HALF_ANGLE_DEGREES: Range = Range::above(0.0, 15.0, "degrees");
+/// Samples, or layers, of a ray. More change no picture and stall a frame: these cross a field of 16,384 texels four times a texel.
+pub const SAMPLES_MAX: u32 = 65536;
 /// C² up to which a wave is stable: at ½ the checkerboard mode grows linearly.
 pub const COURANT_SQUARED_MAX: f64 = 0.49;
+
+/// Samples of a search.
+const SAMPLES: Range = Range::from_to(1.0, SAMPLES_MAX as f64, "samples");
+
+/// Triangles of a micropolygon mesh: the plane's own two, and as many as fit the buffers that every adapter allows.
+const MESH_TRIANGLES: Range = Range::from_to(2.0, 8_388_608.0, "triangles");
 
 /// The numbers that a key may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,12 +106,19 @@ impl Scene {
         }
         number("plane.width_metres", self.plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
         number("plane.depth_metres", self.plane.depth_metres, DEPTH_METRES)?;
+        // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
+        let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
+        numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
+        self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
+        validate_lights(&self.lights)?;
         validate_material(&self.material)?;
+        self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
+        validate_balls(&self.balls)?;
         validate_camera(&self.camera)
     }
 }
@@ -130,13 +152,45 @@ fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} => Ok(()),
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
         Base::Image { range: Some([low, high]), .. } if !(low < high && (high - low).is_finite()) => {
             refuse("base.range", format!("[{low}, {high}]"), "two finite numbers, the first less than the second")
         }
         Base::Image { .. } => Ok(()),
     }
+}
+
+fn validate_mesh(mesh: &Mesh) -> Result<(), SceneError> {
+    if let Some(radius) = mesh.radius_metres {
+        number("mesh.radius_metres", radius, Range::above(0.0, 1e6, "metres"))?;
+    }
+    numbers("mesh.tiles", &mesh.tiles, Range::above(0.0, 1e4, "tiles"))?;
+    for (i, material) in mesh.materials.iter().enumerate() {
+        if let Some(depth) = material.depth_metres {
+            number(format!("mesh.materials[{i}].depth_metres"), depth, DEPTH_METRES)?;
+        }
+        if let Some([fewest, most]) = material.samples {
+            let key = format!("mesh.materials[{i}].samples");
+            numbers(&key, &[fewest, most], SAMPLES)?;
+            if fewest > most {
+                return refuse(key, format!("[{fewest}, {most}]"), "the fewest samples, then the most");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn validate_balls(balls: &[Ball]) -> Result<(), SceneError> {
+    if balls.len() > BALLS_MAX {
+        return refuse("balls", format!("a list of {}", balls.len()), format!("at most {BALLS_MAX} balls"));
+    }
+    for (i, ball) in balls.iter().enumerate() {
+        numbers(&format!("balls[{i}].centre"), &ball.centre, Range::from_to(-1e6, 1e6, "metres"))?;
+        number(format!("balls[{i}].radius_metres"), ball.radius_metres, Range::above(0.0, 1e6, "metres"))?;
+        numbers(&format!("balls[{i}].colour"), &ball.colour, Range::from_to(0.0, 1.0, ""))?;
+    }
+    Ok(())
 }
 
 fn validate_wave(wave: &Wave) -> Result<(), SceneError> {
@@ -180,15 +234,18 @@ fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
 }
 
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
-    // Counts beyond these change no picture and stall a frame: 65,536 samples cross a field of 16,384 texels four times a texel.
-    let samples = Range::from_to(1.0, 65536.0, "samples");
-    number("trace.pom_samples_min", trace.pom_samples_min, samples)?;
-    number("trace.pom_samples_max", trace.pom_samples_max, samples)?;
+    number("trace.steep_layers", trace.steep_layers, Range::from_to(1.0, f64::from(SAMPLES_MAX), "layers"))?;
+    number("trace.relief_linear_steps", trace.relief_linear_steps, SAMPLES)?;
+    // f32 has 24 bits: further halvings find the same place.
+    number("trace.relief_binary_steps", trace.relief_binary_steps, Range::from_to(1.0, 24.0, "samples"))?;
+    number("trace.pom_samples_min", trace.pom_samples_min, SAMPLES)?;
+    number("trace.pom_samples_max", trace.pom_samples_max, SAMPLES)?;
+    number("trace.mesh_triangles", trace.mesh_triangles, MESH_TRIANGLES)?;
     if trace.pom_samples_min > trace.pom_samples_max {
         let allowed = format!("at most `trace.pom_samples_max`, {}", trace.pom_samples_max);
         return refuse("trace.pom_samples_min", trace.pom_samples_min, allowed);
     }
-    number("trace.shadow_samples", trace.shadow_samples, samples)?;
+    number("trace.shadow_samples", trace.shadow_samples, SAMPLES)?;
     number("trace.shadow_strength", trace.shadow_strength, Range::from_to(0.0, 1000.0, ""))?;
     // Mesa's software adapter ends every loop of a pixel after 65,536 rounds of all of them: a hundred nodes a ray must fit.
     number("trace.area_samples", trace.area_samples, Range::from_to(1.0, 512.0, "samples"))?;
@@ -197,20 +254,38 @@ fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
 }
 
 fn validate_light(light: &Light) -> Result<(), SceneError> {
-    number("light.azimuth_degrees", light.azimuth_degrees, Range::from_to(-3600.0, 3600.0, "degrees"))?;
-    number("light.elevation_degrees", light.elevation_degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
+    validate_directional("light", &DirectionalLight::of(light))?;
     number("light.half_angle_degrees", light.half_angle_degrees, LIGHT_HALF_ANGLE_DEGREES)?;
-    let radiance = Range::from_to(0.0, 1e4, "");
-    numbers("light.colour", &light.colour, radiance)?;
-    number("light.intensity", light.intensity, radiance)?;
-    numbers("light.sky", &light.sky, radiance)?;
-    numbers("light.ground", &light.ground, radiance)?;
-    number("light.turn_degrees_per_second", light.turn_degrees_per_second, Range::from_to(-3600.0, 3600.0, "degrees per second"))
+    numbers("light.sky", &light.sky, RADIANCE)?;
+    numbers("light.ground", &light.ground, RADIANCE)
+}
+
+fn validate_lights(lights: &[DirectionalLight]) -> Result<(), SceneError> {
+    if lights.len() >= LIGHTS_MAX {
+        let allowed = format!("at most {} beside `[light]`: remove some", LIGHTS_MAX - 1);
+        return refuse("lights", format!("a list of {}", lights.len()), allowed);
+    }
+    lights.iter().enumerate().try_for_each(|(i, light)| validate_directional(&format!("lights[{i}]"), light))
+}
+
+fn validate_directional(key: &str, light: &DirectionalLight) -> Result<(), SceneError> {
+    let key = |name: &str| format!("{key}.{name}");
+    number(key("azimuth_degrees"), light.azimuth_degrees, Range::from_to(-3600.0, 3600.0, "degrees"))?;
+    number(key("elevation_degrees"), light.elevation_degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
+    numbers(&key("colour"), &light.colour, RADIANCE)?;
+    number(key("intensity"), light.intensity, RADIANCE)?;
+    let turn = Range::from_to(-3600.0, 3600.0, "degrees per second");
+    number(key("turn_degrees_per_second"), light.turn_degrees_per_second, turn)
 }
 
 fn validate_material(material: &Material) -> Result<(), SceneError> {
     numbers("material.tint", &material.tint, Range::from_to(0.0, 10.0, ""))?;
-    number("material.specular", material.specular, Range::from_to(0.0, 1.0, ""))?;
+    let share = Range::from_to(0.0, 1.0, "");
+    number("material.specular", material.specular, share)?;
+    number("material.roughness", material.roughness, share)?;
+    number("material.metallic", material.metallic, share)?;
+    number("material.reflection", material.reflection, share)?;
+    number("material.refractive_index", material.refractive_index, Range::from_to(1.0, 4.0, ""))?;
     number("material.shininess", material.shininess, Range::above(0.0, 1e5, ""))
 }
 
@@ -228,12 +303,13 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
         "camera.orbit_degrees_per_second",
         camera.orbit_degrees_per_second,
         Range::from_to(-3600.0, 3600.0, "degrees per second"),
-    )
+    )?;
+    numbers("camera.fly_metres_per_second", &camera.fly_metres_per_second, Range::from_to(-1e4, 1e4, "metres per second"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Rain};
+    use super::super::{Boundary, Lod, Rain};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -247,8 +323,18 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
+            lod: Lod { threshold: Some(4.0), ..Lod::default() },
+            lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()
         }
+    }
+
+    #[test]
+    fn a_fifth_light_is_refused() {
+        let mut scene = full();
+        scene.lights.push(DirectionalLight::default());
+        let error = scene.validate().expect_err("five lights").to_string();
+        assert!(error.contains("at most 3 beside `[light]`"), "{error}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! A compute pass, since all channels together are 48 bytes a pixel and a render pass may write 32 by WebGPU's default limits.
 
-use super::{Albedo, Shadow, Technique, View, ViewSet, bind_field, constants, field_layout, parts, view};
+use super::{Choice, View, ViewSet, bind_field, constants, field_layout, parts, view};
 use crate::field::Field;
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
@@ -23,8 +23,23 @@ pub struct Channel {
     pub uv: [f32; 2],
     /// Share of the light that arrives; 0 where the surface faces away from it.
     pub visibility: f32,
-    /// Level of detail: 0 is the full effect.
+    /// Level of detail: the mip level of the pixel, at which the surface was looked at; 0, the full effect, where it is off.
     pub lod: f32,
+}
+
+impl Channel {
+    /// From the parts that render passes write: see `shaders/surface/channel.wgsl`.
+    pub fn from_parts([one, two, three]: [[f32; 4]; 3]) -> Self {
+        Self {
+            position: [one[0], one[1], one[2]],
+            steps: one[3],
+            normal: [two[0], two[1], two[2]],
+            height: two[3],
+            uv: [three[0], three[1]],
+            visibility: three[2],
+            lod: three[3],
+        }
+    }
 }
 
 /// Writes channels, a band of rows at a time.
@@ -44,13 +59,13 @@ impl Channels {
     /// # Errors
     ///
     /// The shader does not compile.
-    pub fn new(gpu: &Gpu, technique: Technique, shadow: Shadow, albedo: Albedo) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, choice: Choice) -> Result<Self, ShaderError> {
         let view_layout = view::layout(gpu);
         let field_layout = field_layout(gpu);
         let output_layout = BindingLayout::new(gpu, "channels", wgpu::ShaderStages::COMPUTE, &[Binding::ReadWrite]);
-        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "channels");
+        let parts = parts(gpu.filters_r32float(), choice, &["channels"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
-        let mut constants = constants(albedo);
+        let mut constants = constants(choice.albedo);
         constants.extend([("WORKGROUP_X", f64::from(Self::WORKGROUP[0])), ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1]))]);
         let kernel = Kernel::new(
             gpu,

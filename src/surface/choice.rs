@@ -45,8 +45,22 @@ choices! {
     Technique {
         /// Blinn's bump mapping: the surface stays where the polygon is, only its normal changes.
         Normal = "normal", "trace_normal", "Normal mapping (Blinn)";
+        /// Parallax mapping: one sample says how far the texture shifts (\[Kaneko\]).
+        Parallax = "parallax", "trace_parallax", "Parallax (Kaneko)";
+        /// Parallax mapping whose shift is never longer than the surface is deep (\[Welsh\]).
+        ParallaxLimited = "parallax-limited", "trace_parallax_limited", "Parallax, limited (Welsh)";
+        /// Equal layers, and the first of them below the surface (\[Steep\]).
+        Steep = "steep", "trace_steep", "Steep parallax";
+        /// Relief mapping: a linear search, then a binary one (\[Policarpo\]).
+        Relief = "relief", "trace_relief", "Relief mapping (Policarpo)";
+        /// The linear search of parallax occlusion mapping alone (\[POM\] fig. 4).
+        PomLinear = "pom-linear", "trace_pom_linear", "POM, linear search alone";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
+        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
+        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
+        /// Pyramidal displacement mapping: down a pyramid of bounds to a column, then half a pixel's refinement (\[PDM\]).
+        Pyramid = "pyramid", "trace_pyramid", "Pyramidal displacement";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
@@ -71,6 +85,16 @@ choices! {
 }
 
 choices! {
+    /// What light does at the surface: a file that defines `fn light(…) -> vec3f` and what surroundings add.
+    Shading {
+        /// Blinn–Phong, as the papers have it.
+        Phong = "phong", "light_phong", "Blinn–Phong";
+        /// GGX microfacets over a matt base.
+        Ggx = "ggx", "light_ggx", "Physically based (GGX)";
+    }
+}
+
+choices! {
     /// The colour of the undisturbed surface: a file that defines `fn matter_at(point: SurfacePoint) -> Matter`.
     Albedo {
         /// One colour, and another where the slope is steep.
@@ -79,8 +103,14 @@ choices! {
         Brick = "brick", "albedo_brick", "Brick";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// A leopard's coat, dark toward the roots.
+        Fur = "fur", "albedo_fur", "Fur";
+        /// A lawn with daisies, dark toward the roots.
+        Grass = "grass", "albedo_grass", "Grass";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
+        /// Clear glass over a table.
+        Glass = "glass", "albedo_glass", "Glass";
     }
 }
 
@@ -99,11 +129,81 @@ pub enum Shows {
     Visibility = 3,
     /// The samples or nodes of the view ray, as heat: 64 and more are the brightest.
     Steps = 4,
+    /// How far the view ray moved along the surface, in depths of the field: grey is nowhere, red to the right, green up.
+    UvOffset = 5,
+    /// The level of the pyramid at which the view ray found the surface, as heat.
+    Level = 6,
+    /// How far the point that the technique found lies from the one of the exact traversal, as heat.
+    Error = 7,
+    /// The mip level of the pixel, as heat.
+    MipLevel = 16,
+    /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
+    LodTint = 17,
 }
 
 impl Shows {
     /// Every view, in the order in which a key cycles them.
-    pub const ALL: &'static [Self] = &[Self::Picture, Self::Height, Self::Normal, Self::Visibility, Self::Steps];
+    pub const ALL: &'static [Self] = &[
+        Self::Picture,
+        Self::Height,
+        Self::Normal,
+        Self::UvOffset,
+        Self::Visibility,
+        Self::Steps,
+        Self::Level,
+        Self::Error,
+        Self::MipLevel,
+        Self::LodTint,
+    ];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "final",
+            Self::Height => "height",
+            Self::Normal => "normals",
+            Self::UvOffset => "uv-offset",
+            Self::Visibility => "visibility",
+            Self::Steps => "steps",
+            Self::Level => "pyramid-level",
+            Self::Error => "error",
+            Self::MipLevel => "mip-level",
+            Self::LodTint => "lod-tint",
+        }
+    }
+
+    /// What the brightest heat of the view stands for, where it has one; `gain` is that of the view of errors.
+    pub fn heat_top(self, gain: f32) -> Option<f32> {
+        match self {
+            Self::Steps => Some(Self::STEPS_TOP as f32),
+            Self::Level | Self::MipLevel => Some(Self::LEVELS_TOP as f32),
+            Self::Error => Some(1.0 / gain),
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LodTint => None,
+        }
+    }
+
+    /// The unit of what it shows, where it shows a number.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Steps => "height samples or nodes",
+            Self::Level | Self::MipLevel => "levels",
+            Self::Error => "texels",
+            Self::Height => "of the depth",
+            Self::Visibility => "of the light",
+            Self::Picture | Self::Normal | Self::UvOffset | Self::LodTint => "",
+        }
+    }
+
+    /// Steps that are the brightest heat.
+    pub const STEPS_TOP: u32 = 64;
+
+    /// Levels that are the brightest heat: a field of 4,096 texels has as many.
+    pub const LEVELS_TOP: u32 = 12;
+
+    /// The view of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|shows| shows.name() == name)
+    }
 
     /// What the panel calls it.
     pub const fn label(self) -> &'static str {
@@ -111,8 +211,13 @@ impl Shows {
             Self::Picture => "Picture",
             Self::Height => "Height",
             Self::Normal => "Normals",
+            Self::UvOffset => "Offset of the texture",
             Self::Visibility => "Visibility of the light",
             Self::Steps => "Steps a pixel",
+            Self::Level => "Level of the pyramid",
+            Self::Error => "Error against exact",
+            Self::MipLevel => "Mip level",
+            Self::LodTint => "Level of detail in blue",
         }
     }
 }

@@ -2,40 +2,107 @@
 
 pub mod channels;
 pub mod choice;
+pub mod display;
+pub mod facet;
+pub mod level_of_detail;
+pub mod light_probe;
+pub mod micropolygon;
 pub mod probe;
+pub mod raster;
 pub mod ray_map;
+pub mod shell;
+pub mod stage;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
 pub mod surface;
 pub mod view;
 
 pub use channels::Channels;
-pub use choice::{Albedo, Shadow, Shows, Technique};
+pub use choice::{Albedo, Shading, Shadow, Shows, Technique};
+pub use display::{Display, Split};
+pub use light_probe::LightProbe;
 pub use probe::Probe;
+pub use stage::{Seen, Stage};
 pub use surface::Surface;
 pub use view::{View, ViewSet};
 
 use crate::field;
 use crate::gpu::{Binding, BindingLayout, Gpu};
+use crate::scene::Scene;
 
-/// The WGSL parts of everything that traces, `entry` being the part with its entry points. `filters_r32float` says whether the
+/// What a picture is made with: the parts that are chosen, not computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Choice {
+    /// How the ray of a pixel finds the surface.
+    pub technique: Technique,
+    /// How much of the light a point sees.
+    pub shadow: Shadow,
+    /// The colour of the undisturbed surface.
+    pub albedo: Albedo,
+    /// What light does to it.
+    pub shading: Shading,
+    /// Whether the exact traversal runs beside the technique: what the view of errors shows. A part of its own, since an
+    /// adapter that runs both sides of every branch would pay for it in every picture.
+    pub with_truth: bool,
+}
+
+impl Choice {
+    /// The cheapest, for what is no relief.
+    pub const PLAIN: Self = Self::tracing(Technique::Normal, Shadow::None);
+
+    /// A technique and a shadow, where nobody looks at colours.
+    pub const fn tracing(technique: Technique, shadow: Shadow) -> Self {
+        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false }
+    }
+
+    /// A scene's.
+    pub fn of(scene: &Scene) -> Self {
+        let (trace, material) = (&scene.trace, &scene.material);
+        Self { albedo: material.albedo, shading: material.model, ..Self::tracing(trace.technique, trace.shadow) }
+    }
+
+    /// The same for a view of what it traces.
+    #[must_use]
+    pub const fn showing(self, shows: Shows) -> Self {
+        Self { with_truth: matches!(shows, Shows::Error), ..self }
+    }
+}
+
+/// The WGSL parts of everything that traces, `entries` being those with its entry points, under `shaders/surface`. `filters_r32float` says whether the
 /// adapter does.
-pub fn parts(filters_r32float: bool, technique: Technique, shadow: Shadow, albedo: Albedo, entry: &str) -> Vec<String> {
+pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let stems = [technique.stem(), shadow.stem(), "matter", albedo.stem(), "shade", entry];
+    let Choice { technique, shadow, albedo, shading, with_truth } = choice;
+    let stems = [
+        technique.stem(),
+        shadow.stem(),
+        "sky",
+        "balls",
+        "matter",
+        "transparent",
+        albedo.stem(),
+        shading.stem(),
+        "shade",
+        if with_truth { "truth_exact" } else { "truth_none" },
+        "views",
+        "channel",
+    ];
     let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
+        "common/heat",
         "surface/ray",
         "common/field",
         sampled,
         "surface/frame",
+        "surface/level_of_detail",
         "surface/ray_map",
         "surface/traversal",
         "surface/light_disc",
+        "surface/march",
     ]
     .map(str::to_owned)
     .to_vec();
-    parts.extend(stems.map(|stem| format!("surface/{stem}")));
+    parts.extend(stems.iter().chain(entries).map(|stem| format!("surface/{stem}")));
     parts
 }
 
@@ -48,7 +115,8 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
-        Albedo::Plain | Albedo::Water => Vec::new(),
+        Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
+        Albedo::Plain | Albedo::Fur | Albedo::Water | Albedo::Glass => Vec::new(),
     }
 }
 
@@ -57,7 +125,7 @@ pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
         gpu,
         "field",
-        wgpu::ShaderStages::FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
         &[Binding::Float(gpu.filters_r32float()), Binding::Float(false), Binding::Float(true), Binding::Uint],
     )
 }

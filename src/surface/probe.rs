@@ -2,7 +2,7 @@
 //!
 //! The same WGSL functions that the fragment shader runs, for tests against the reference and for the pointer of a mouse.
 
-use super::{Albedo, Shadow, Technique, View, ViewSet, bind_field, field_layout, parts, view};
+use super::{Choice, Shadow, Technique, View, ViewSet, bind_field, field_layout, parts, view};
 use crate::field::Field;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 
@@ -78,7 +78,7 @@ impl Probe {
             wgpu::ShaderStages::COMPUTE,
             &[Binding::Read, Binding::ReadWrite, Binding::ReadWrite],
         );
-        let parts = parts(gpu.filters_r32float(), technique, shadow, Albedo::Plain, "probe");
+        let parts = parts(gpu.filters_r32float(), Choice::tracing(technique, shadow), &["probe"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let groups = [Some(&view_layout), Some(&field_layout), Some(&list_layout)];
         let kernel =

@@ -39,12 +39,43 @@ impl LinearForm {
     }
 }
 
+/// Where a flat relief lies in the world: its middle, and unit vectors along u, along v and out of it. Its middle is where the texture
+/// coordinates are ½.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The middle, metres.
+    pub origin: DVec3,
+    /// Along u.
+    pub u: DVec3,
+    /// Along v, perpendicular to it.
+    pub v: DVec3,
+    /// Out of the reference surface, perpendicular to both.
+    pub up: DVec3,
+}
+
+impl Default for Placement {
+    /// In the world's y = 0, u along +x, v along +z.
+    fn default() -> Self {
+        Self { origin: DVec3::ZERO, u: DVec3::X, v: DVec3::Z, up: DVec3::Y }
+    }
+}
+
+impl Placement {
+    /// A point of the world counted from the middle, along u, out, and along v.
+    fn local(&self, world: DVec3) -> DVec3 {
+        let from_middle = world - self.origin;
+        DVec3::new(from_middle.dot(self.u), from_middle.dot(self.up), from_middle.dot(self.v))
+    }
+}
+
 /// The plane and the field that rays are mapped into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
+    /// Where the plane lies.
+    pub placement: Placement,
     /// Width and height of the field, texels.
     pub field_size: [u32; 2],
-    /// Extent of the plane along x and z, metres.
+    /// Extent of the plane along u and v, metres.
     pub plane_size_metres: [f64; 2],
     /// Depth of h = 0, metres.
     pub depth_metres: f64,
@@ -72,7 +103,7 @@ impl RayMap {
             lattice: exact.lattice.map(form),
             travel: exact.travel.map(form),
             denominator: form(exact.denominator),
-            nearest: (camera.eye().y / camera.near_metres) as f32,
+            nearest: (target.placement.local(camera.eye()).y / camera.near_metres) as f32,
         }
     }
 }
@@ -84,7 +115,7 @@ pub fn pixel_ray(camera: &Camera, image_size: [u32; 2], target: &Target, pixel: 
     let denominator = forms.denominator.dot(pixel);
     let at = |form: DVec3| form.dot(pixel) / denominator;
     let lattice = forms.lattice.map(at);
-    (denominator > 0.0 && camera.eye().y > 0.0).then(|| Ray {
+    (denominator > 0.0 && target.placement.local(camera.eye()).y > 0.0).then(|| Ray {
         lattice: lattice.map(|lattice| (lattice - lattice.floor()) as f32),
         travel: forms.travel.map(|travel| at(travel) as f32),
         height: 1.0,
@@ -108,6 +139,24 @@ pub struct ExactForms {
 
 /// The coefficients of the rays of a camera's picture.
 pub fn exact_forms(camera: &Camera, image_size: [u32; 2], target: &Target) -> ExactForms {
+    let direction = direction_forms(camera, image_size);
+    let along = |axis: DVec3| direction[0] * axis.x + direction[1] * axis.y + direction[2] * axis.z;
+    let placement = &target.placement;
+    let (x, y, z) = (along(placement.u), along(placement.up), along(placement.v));
+    let denominator = -y;
+    let eye = placement.local(camera.eye());
+    let axis = |axis: usize, eye_along: f64, direction: DVec3| {
+        let (size, texels) = (target.plane_size_metres[axis], f64::from(target.field_size[axis]));
+        // The ray meets the plane at eye + (eye.y / denominator) · direction; u = x / size + ½, lattice = u · texels − ½.
+        let lattice = (denominator * eye_along + direction * eye.y) * (texels / size) + denominator * (0.5 * texels - 0.5);
+        (lattice, direction * (target.depth_metres * texels / size))
+    };
+    let ((lattice_x, travel_x), (lattice_y, travel_y)) = (axis(0, eye.x, x), axis(1, eye.z, z));
+    ExactForms { lattice: [lattice_x, lattice_y], travel: [travel_x, travel_y], denominator }
+}
+
+/// The coefficients of the direction of a pixel's ray along the world's axes, with unit length along the view axis.
+pub fn direction_forms(camera: &Camera, image_size: [u32; 2]) -> [DVec3; 3] {
     let [width, height] = image_size.map(f64::from);
     let half_height = (0.5 * camera.vertical_fov_radians).tan();
     // View direction of a pixel, with unit length along the view axis; columns are its coefficients of x, y and 1.
@@ -121,15 +170,5 @@ pub fn exact_forms(camera: &Camera, image_size: [u32; 2], target: &Target) -> Ex
         ),
     );
     let world_from_pixel = (DMat3::from_mat4(camera.world_from_view) * view_from_pixel).transpose();
-    let (x, y, z) = (world_from_pixel.x_axis, world_from_pixel.y_axis, world_from_pixel.z_axis);
-    let denominator = -y;
-    let eye = camera.eye();
-    let axis = |axis: usize, eye_along: f64, direction: DVec3| {
-        let (size, texels) = (target.plane_size_metres[axis], f64::from(target.field_size[axis]));
-        // The ray meets the plane at eye + (eye.y / denominator) · direction; u = x / size + ½, lattice = u · texels − ½.
-        let lattice = (denominator * eye_along + direction * eye.y) * (texels / size) + denominator * (0.5 * texels - 0.5);
-        (lattice, direction * (target.depth_metres * texels / size))
-    };
-    let ((lattice_x, travel_x), (lattice_y, travel_y)) = (axis(0, eye.x, x), axis(1, eye.z, z));
-    ExactForms { lattice: [lattice_x, lattice_y], travel: [travel_x, travel_y], denominator }
+    [world_from_pixel.x_axis, world_from_pixel.y_axis, world_from_pixel.z_axis]
 }

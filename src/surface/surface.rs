@@ -1,6 +1,8 @@
 //! Surface: the plane with its relief, traced pixel by pixel into radiance. Shader: `shaders/surface/surface.wgsl`.
 
-use super::{Albedo, Shadow, Technique, ViewSet, bind_field, constants, field_layout, parts};
+use std::ops::Range;
+
+use super::{Choice, ViewSet, bind_field, constants, field_layout, parts};
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Contract, Gpu, Recorder, Role, ShaderError};
 
@@ -21,7 +23,7 @@ impl Role for Radiance {
     };
 }
 
-/// Traces and shades what the camera sees, with one technique, shadow and albedo.
+/// Traces and shades what the camera sees, with one look.
 pub struct Surface {
     pipeline: wgpu::RenderPipeline,
     layout: BindingLayout,
@@ -38,15 +40,9 @@ impl Surface {
     /// # Errors
     ///
     /// The shader does not compile.
-    pub fn new(
-        gpu: &Gpu,
-        view: &BindingLayout,
-        technique: Technique,
-        shadow: Shadow,
-        albedo: Albedo,
-    ) -> Result<Self, ShaderError> {
+    pub fn new(gpu: &Gpu, view: &BindingLayout, choice: Choice) -> Result<Self, ShaderError> {
         let layout = field_layout(gpu);
-        let parts = parts(gpu.filters_r32float(), technique, shadow, albedo, "surface");
+        let parts = parts(gpu.filters_r32float(), choice, &["surface"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let module = gpu.shaders.module(gpu, "surface", &parts)?;
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -54,7 +50,7 @@ impl Surface {
             bind_group_layouts: &[Some(&view.layout), Some(&layout.layout)],
             immediate_size: 0,
         });
-        let constants = constants(albedo);
+        let constants = constants(choice.albedo);
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("surface"),
             layout: Some(&pipeline_layout),
@@ -84,9 +80,20 @@ impl Surface {
         SurfaceSet { group: bind_field(gpu, &self.layout, field) }
     }
 
-    /// Records one render pass over the whole of `radiance`.
-    pub fn record(&self, recorder: &mut Recorder<'_>, view: &ViewSet, set: &SurfaceSet, radiance: &wgpu::TextureView) {
-        recorder.render("surface", radiance, |pass| {
+    /// Records one render pass over these columns of `radiance`, under a name of its own; whoever begins at the first begins the
+    /// picture.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        name: &str,
+        view: &ViewSet,
+        set: &SurfaceSet,
+        radiance: &wgpu::TextureView,
+        columns: Range<u32>,
+    ) {
+        let height = radiance.texture().height();
+        recorder.render_onto(name, radiance, None, columns.start > 0, |pass| {
+            pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, height);
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &view.group, &[]);
             pass.set_bind_group(1, &set.group, &[]);

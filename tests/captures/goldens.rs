@@ -7,10 +7,12 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 4] = [
+const GOLDENS: [(&str, &[&str]); 6] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("relief", &["--scene", "relief"]),
+    ("fur", &["--scene", "fur"]),
+    ("grass", &["--scene", "grass", "--technique", "steep"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
 ];
 

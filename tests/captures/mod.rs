@@ -1,9 +1,11 @@
 //! What `capture` writes, read back from its files as a script outside would: the binary runs as a process.
 
 mod determinism;
+mod flight;
 mod goldens;
 mod positions;
 mod techniques;
+mod views;
 
 use std::path::Path;
 use std::process::{Command, Output};

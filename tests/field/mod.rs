@@ -1,6 +1,7 @@
 //! How the height field comes to be.
 
 mod compose;
+mod normal_mips;
 mod normals;
 mod pyramid;
 mod stamp;

@@ -26,7 +26,7 @@ fn derived(gpu: &Gpu, field: &HeightField) -> Vec<[f64; 3]> {
 }
 
 /// The value of an IEEE 754 half.
-fn from_half(bits: u16) -> f64 {
+pub fn from_half(bits: u16) -> f64 {
     let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
     let exponent = i32::from(bits >> 10 & 31);
     let fraction = f64::from(bits & 1023) / 1024.0;

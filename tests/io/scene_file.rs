@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use rilievo::io::scene_file::{CameraPlacement, EMBEDDED, FieldSize, SceneOverrides, embedded, list, load};
-use rilievo::scene::{Base, Boundary, Scene};
+use rilievo::scene::{Base, Boundary, PomCounts, PyramidLeaf, Scene};
 use rilievo::surface::{Shadow, Technique};
 
 const PICTURE: [u32; 2] = [640, 480];
@@ -76,6 +76,10 @@ fn overrides_replace_what_they_name_and_nothing_else() {
         depth_metres: Some(0.5),
         technique: Some(Technique::Pom),
         shadow: Some(Shadow::None),
+        samples: Some([3, 30]),
+        pom_counts: Some(PomCounts::Texels),
+        relief_depth_bias: Some(true),
+        pyramid_leaf: Some(PyramidLeaf::Nearest),
         seed: Some(77),
         camera: Some(CameraPlacement { eye: [0.0, 0.2, 3.0], target: [0.0, 0.0, 1.0] }),
         vertical_fov_degrees: Some(20.0),
@@ -91,6 +95,13 @@ fn overrides_replace_what_they_name_and_nothing_else() {
     expected.plane.depth_metres = 0.5;
     expected.trace.technique = Technique::Pom;
     expected.trace.shadow = Shadow::None;
+    expected.trace.pom_samples_min = 3;
+    expected.trace.pom_samples_max = 30;
+    expected.trace.steep_layers = 30;
+    expected.trace.relief_linear_steps = 30;
+    expected.trace.pom_counts = PomCounts::Texels;
+    expected.trace.relief_depth_bias = true;
+    expected.trace.pyramid_leaf = PyramidLeaf::Nearest;
     expected.seed = 77;
     expected.camera.eye = [0.0, 0.2, 3.0];
     expected.camera.target = [0.0, 0.0, 1.0];
@@ -177,8 +188,8 @@ fn unfit_files_are_refused_with_their_line() {
     assert!(refusal(path).contains("2097152 bytes"));
     assert!(refusal("nowhere.toml").contains("no such file"));
     assert!(refusal("./nowhere").contains("no such file"));
-    assert!(refusal("riples").contains("did you mean `ripples`, of ripples, bullet-wall and relief?"));
-    assert!(refusal("").contains("known are ripples, bullet-wall and relief"));
+    assert!(refusal("riples").contains("did you mean `ripples`, of ripples, bullet-wall, relief, sidewalk, fur and grass?"));
+    assert!(refusal("").contains("known are ripples, bullet-wall, relief, sidewalk, fur and grass"));
 }
 
 #[test]

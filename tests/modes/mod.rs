@@ -1,5 +1,6 @@
 //! The modes, from outside.
 
+mod compare;
 mod panel;
 #[cfg(target_os = "linux")]
 mod window;

@@ -9,8 +9,9 @@ use rilievo::modes::live::hand::BrushKind;
 use rilievo::modes::live::input::Action;
 use rilievo::modes::live::panel::{Panel, set_style};
 use rilievo::modes::live::readings::Readings;
+use rilievo::scene::DirectionalLight;
 use rilievo::scene::{Boundary, Rain, Scene, Shots, Wave};
-use rilievo::surface::{Shadow, Technique};
+use rilievo::surface::{Albedo, Display, Shading, Shadow, Shows, Split, Technique};
 
 struct State {
     panel: Panel,
@@ -60,10 +61,17 @@ fn names(harness: &Panels, role: Role) -> Vec<String> {
 
 #[test]
 fn every_slider_moves_its_value_and_its_reset_brings_it_back() {
-    for technique in [Technique::Pom, Technique::Exact] {
+    for technique in [Technique::Pom, Technique::Exact, Technique::Relief, Technique::Steep] {
         let mut scene = everything();
         scene.trace.technique = technique;
+        if technique == Technique::Exact {
+            scene.material.model = Shading::Ggx;
+            scene.material.albedo = Albedo::Glass;
+        }
         let mut harness = harness(scene);
+        let split = Split { technique, shadow: Shadow::Hard, shows: Shows::Picture, fraction: Split::MIDDLE };
+        harness.state_mut().panel.display = Display { shows: Shows::Error, split: Some(split), ..Display::default() };
+        harness.run();
         let sliders = names(&harness, Role::Slider);
         assert!(sliders.len() > 24, "{sliders:?}");
         for name in sliders {
@@ -157,13 +165,17 @@ fn choices_are_made_and_reset() {
 
 #[test]
 fn every_choice_and_colour_has_a_name_and_a_reset() {
-    let harness = harness(everything());
-    let mut controls = names(&harness, Role::ComboBox);
-    controls.retain(|name| name != "Scene");
-    controls.extend(names(&harness, Role::ColorWell));
-    assert!(controls.len() >= 9, "{controls:?}");
-    for name in controls {
-        harness.get_by_role_and_label(Role::Button, &format!("Reset {name}"));
+    for &technique in Technique::ALL {
+        let mut scene = everything();
+        scene.trace.technique = technique;
+        let harness = harness(scene);
+        let mut controls = names(&harness, Role::ComboBox);
+        controls.retain(|name| name != "Scene");
+        controls.extend(names(&harness, Role::ColorWell));
+        assert!(controls.len() >= 9, "{controls:?}");
+        for name in controls {
+            harness.get_by_role_and_label(Role::Button, &format!("Reset {name}"));
+        }
     }
 }
 
@@ -179,13 +191,92 @@ fn a_group_is_reset_at_once() {
     scene.material.shininess = 3.0;
     scene.wave = Some(Wave::default());
     scene.shots = Some(Shots { scorch: 0.1, ..Shots::default() });
+    harness.state_mut().panel.scene.lights.push(DirectionalLight::default());
+    harness.state_mut().panel.display.shows = Shows::Steps;
     harness.state_mut().panel.brush.grow(5.0);
     harness.run();
-    for name in ["Surface", "Light", "Material", "Simulation", "Brush"] {
+    for name in ["View", "Surface", "Light", "Material", "Simulation", "Brush"] {
         harness.get_by_label(&format!("Reset all of {name}")).click();
         harness.run();
     }
     assert_eq!(harness.state().panel, original);
+}
+
+#[test]
+fn lights_are_added_chosen_moved_and_removed() {
+    let mut harness = harness(everything());
+    let click = |harness: &mut Panels, label: &str| {
+        harness.get_by_label(label).click();
+        harness.run();
+    };
+    let lights = |harness: &Panels| harness.state().panel.scene.lights.clone();
+    assert!(harness.query_by_role_and_label(Role::ComboBox, "Which").is_none(), "one light leaves no choice");
+    click(&mut harness, "Add a light");
+    click(&mut harness, "Add a light");
+    assert_eq!(lights(&harness), vec![DirectionalLight::default(); 2]);
+    // The one that was added is the one that the rows move.
+    let own = harness.state().panel.scene.light.clone();
+    harness.get_by_role_and_label(Role::Slider, "Azimuth").set_value_accesskit(123.0);
+    harness.run();
+    click(&mut harness, "Casts shadows");
+    let moved = DirectionalLight { azimuth_degrees: 123.0, casts_shadow: false, ..DirectionalLight::default() };
+    assert_eq!(lights(&harness), [DirectionalLight::default(), moved.clone()]);
+    assert_eq!(harness.state().panel.scene.light, own);
+    harness.get_by_role_and_label(Role::ComboBox, "Which").click();
+    harness.run();
+    click(&mut harness, "Second");
+    click(&mut harness, "Remove this one");
+    assert_eq!(lights(&harness), [moved]);
+    assert!(harness.query_by_label("Remove this one").is_none(), "the scene's own light stays");
+    click(&mut harness, "Add a light");
+    click(&mut harness, "Add a light");
+    let add = harness.get_by_label("Add a light");
+    assert!(add.accesskit_node().is_disabled(), "four are the most");
+    assert!(harness.state().panel.scene.validate().is_ok());
+}
+
+#[test]
+fn the_screen_is_split_and_its_divider_dragged() {
+    let mut harness = harness(everything());
+    assert_eq!(harness.state().panel.display.split, None);
+    harness.get_by_role_and_label(Role::CheckBox, "Split screen").click();
+    harness.run();
+    let split = harness.state().panel.display.split.expect("it was split");
+    assert_ne!(split.technique, harness.state().panel.scene.trace.technique, "both sides alike would show nothing");
+    harness.get_by_role_and_label(Role::ComboBox, "Its shadow").click();
+    harness.run();
+    harness.get_by_label("Hard (exact)").click();
+    harness.run();
+    assert_eq!(harness.state().panel.display.split.map(|split| split.shadow), Some(Shadow::Hard));
+    // The harness is 900 points wide: 90 of them are a tenth.
+    let from = harness.get_by_label("Drag the divider").rect().center();
+    assert!((from.x - 450.0).abs() < 1.0);
+    let to = from + egui::vec2(90.0, 5.0);
+    harness.drag_at(from);
+    harness.run();
+    harness.hover_at(to);
+    harness.run();
+    harness.drop_at(to);
+    harness.run();
+    let fraction = harness.state().panel.display.split.map_or(0.0, |split| split.fraction);
+    assert!((fraction - 0.6).abs() < 1e-3, "{fraction}");
+    // Each side says what it is.
+    harness.get_by_label_contains("Shadow: Hard (exact)");
+    harness.get_by_role_and_label(Role::CheckBox, "Split screen").click();
+    harness.run();
+    assert_eq!(harness.state().panel.display.split, None);
+}
+
+#[test]
+fn a_view_says_what_its_colours_mean() {
+    let mut harness = harness(everything());
+    harness.state_mut().panel.show_view(Shows::Error);
+    harness.state_mut().panel.display.gain = 4.0;
+    harness.run();
+    harness.get_by_label("Black is 0, the brightest 0.25 texels");
+    harness.state_mut().panel.show_view(Shows::Steps);
+    harness.run();
+    harness.get_by_label("Black is 0, the brightest 64 height samples or nodes");
 }
 
 #[test]

@@ -5,5 +5,8 @@ pub mod desktop;
 pub mod fields;
 pub mod gpu;
 pub mod lights;
+pub mod lit;
 pub mod rays;
+pub mod seen;
+pub mod techniques;
 pub mod tolerances;

@@ -4,6 +4,7 @@ use rilievo::field::pyramid::Pyramid;
 use rilievo::field::{Field, Region};
 use rilievo::gpu::Gpu;
 use rilievo::reference::{Addressing, HeightField, Ray};
+use rilievo::scene::PyramidLeaf;
 use rilievo::surface::probe::Hit;
 use rilievo::surface::{Probe, Shadow, Technique, View};
 
@@ -34,6 +35,11 @@ pub fn view(field: &HeightField) -> View {
         up_world: [0.0, 1.0, 0.0],
         pom_samples_min: 8.0,
         pom_samples_max: 50.0,
+        mesh_quads: 37,
+        steep_layers: 50.0,
+        relief_linear_steps: 16.0,
+        relief_binary_steps: 6,
+        pyramid_leaf: PyramidLeaf::Refined as u32,
         shadow_samples: 16.0,
         shadow_strength: 4.0,
         light_radius: 0.05,

@@ -72,11 +72,40 @@ pub const TANGENT_SHARE: f64 = 1e-4;
 /// diagonal of blocks, mostly).
 pub const ADVERSARIAL_TANGENT_SHARE: f64 = 7e-4;
 
+/// Share of a mesh's pixels that may disagree with brute force because a ray grazes or a silhouette passes within a 256th of a pixel of
+/// its centre: the project's bar is one in ten thousand for the plane; a shell has its silhouettes besides, which are lines of one
+/// pixel in width of which 1/128 can fall either way.
+pub const SHELL_OFF_SHARE: f64 = 5e-3;
+
 /// Composition of relief and wave: one product and one sum in f32 of numbers below 2, fused or not.
 pub const COMPOSED_HEIGHT: f64 = 2.0 * ULP;
 
 /// A component of a normal: a half has 11 bits, and the normal's own f32 rounding may decide which half.
 pub const NORMAL_COMPONENT: f64 = 1.0 / 2048.0;
+
+/// A component of a mean of normals: each level is stored as a half, whose rounding the levels above it inherit.
+pub fn normal_mip(level: usize) -> f64 {
+    (1 + level) as f64 * NORMAL_COMPONENT
+}
+
+/// Mip level of a pixel: a gradient of f32 coefficients less a position's share of another, and the logarithm of it.
+pub const MIP_LEVEL: f64 = 1e-3;
+
+/// Height of the plane that is left of a relief: its mean is stored as a half, once a level.
+pub const MEAN_PLANE: f64 = 4e-3;
+
+/// How far a sixtieth of a level may move the height of the coarse surface: the difference of two neighbouring levels of mean
+/// heights on a smooth field is some tenths, and a level that popped would move it by all of that.
+pub const DETAIL_STEP: f64 = 0.01;
+
+/// A flight with level of detail against the same without, levels of 255 of its pictures: the project's bars.
+pub const FLIGHT_MEAN: f64 = 4.0;
+/// The 99th percentile of the same.
+pub const FLIGHT_P99: u8 = 16;
+/// Share of the steps that level of detail saves on it.
+pub const FLIGHT_SAVED: f64 = 0.4;
+/// The 99th percentile of the differences from frame to frame, in those of the flight without.
+pub const FLIGHT_FLICKER: f64 = 1.1;
 
 /// Levels of 255 by which a picture may differ from its golden: software adapters, and one of them between processors, differ by
 /// two or three.
@@ -99,12 +128,24 @@ pub const CONE_BUDGET: f64 = 2.0;
 /// From the start of the program to its first picture: the project's budget on a software adapter.
 pub const FIRST_PICTURE: std::time::Duration = std::time::Duration::from_secs(2);
 
-/// The ray's parameter at a hit of `pom` against the f64 reference: the filter's precision over the angle between ray and
-/// surface, which on the smooth fields of that test is seldom under a tenth.
-pub const POM_PARAMETER: f64 = 1e-4;
+/// What the hardware's filter may do to a height where the surface has this slope: 8 bits of fraction, cut off on both axes.
+pub fn filtered_height(slope: f64) -> f64 {
+    std::f64::consts::SQRT_2 * slope / 256.0
+}
 
-/// Share of rays of `pom` that may end elsewhere: a sample that only just misses the surface, by rounding, hits it later.
-pub const POM_OFF_SHARE: f64 = 1e-3;
+/// Share of rays of an approximating technique that may end further from their reference than [`lattice_bound`], by loads, on
+/// smooth fields: the project's bar. There a sample only just misses the surface by rounding, and the next one hits.
+pub const TECHNIQUE_OFF_SHARE: f64 = 1e-4;
+
+/// The same on white noise, spikes and steps, where the position's own rounding is height, and a segment of `pom` 40 cells long
+/// multiplies it: twice the 2.3e-3 that was measured there; the others have a tenth of it.
+pub const TECHNIQUE_OFF_SHARE_ROUGH: f64 = 5e-3;
+
+/// Mean distance of `pyramid` from the exact hit on waves, cells: with columns, and refined. Half as much again as measured.
+pub const PYRAMID_WAVES: [f64; 2] = [0.5, 0.055];
+
+/// The same on an elevation model.
+pub const PYRAMID_ELEVATION: [f64; 2] = [0.28, 0.055];
 
 /// How far a hundredth of a sample may move the parameter of a hit on a smooth field. A count that jumped by one would move it
 /// by twenty times as much.
@@ -126,6 +167,30 @@ pub const SOFT_STEP: f64 = 1.0 / 64.0;
 /// How much visibility may change in all, up and down, across a penumbra: falling alone makes 1.
 pub const SOFT_VARIATION: f64 = 1.01;
 
+/// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
+/// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
+pub const COMPARED_P99: f64 = 1e-3;
+/// A light model against its f64 reference, of the largest value in the list: some thirty operations at 2⁻²⁴, and a power whose
+/// base is off by one rounding, times an exponent of up to 512.
+pub const LIGHT: f64 = 4e-5;
+
+/// Reciprocity of a light model in f64: rounding alone.
+pub const RECIPROCITY: f64 = 1e-12;
+
+/// The integral of GGX over the hemisphere, by a quadrature of 4,000 angles that follow the lobe.
+pub const DISTRIBUTION_INTEGRAL: f64 = 1e-6;
+
+/// What a directional albedo may exceed 1 by: the error of its quadrature.
+pub const FURNACE: f64 = 1e-4;
+
+/// Single-scatter loss against what the shader's header states: its last digit.
+pub const FURNACE_STATED: f64 = 1e-3;
+
+/// The sky against its f64 reference, and its mean against the colours that it is made of: the horizon's soft edge lends each
+/// half a ten-thousandth of the other.
+pub const SKY: f64 = 1e-6;
+/// See [`SKY`].
+pub const SKY_MEAN: f64 = 2e-4;
 /// Share of receivers where `steep` may differ from its f64 reference: a layer that only just grazes, and the filter's 8 bits.
 pub const STEEP_OFF_SHARE: f64 = 2e-3;
 
@@ -148,11 +213,12 @@ pub const AREA_CONVERGED: f64 = 2e-3;
 /// bilinear step is wide.
 pub const AREA_RAMP: f64 = 0.01;
 
-/// `cone` against its f64 reference: rounding of a slope over the light's radius.
-pub const CONE_VISIBILITY: f64 = 5e-3;
+/// `cone` against its f64 reference: the lift of a millionth of the height range, seen from a tenth of a cell away, is a hundredth of
+/// the light's radius.
+pub const CONE_VISIBILITY: f64 = 0.02;
 
-/// Share of receivers where it may differ by more.
-pub const CONE_OFF_SHARE: f64 = 5e-3;
+/// Share of receivers where it may differ by more: nearer to a crest than that.
+pub const CONE_OFF_SHARE: f64 = 0.02;
 
 /// What rounding may add to the visibility of a blocker that grows.
 pub const CONE_ROUNDING: f64 = 1e-4;
@@ -165,3 +231,22 @@ pub const CONE_RMS: f64 = 0.03;
 
 /// Share of receivers to which a light of a milliradian is a point: the project's bar.
 pub const CONE_POINT_SHARE: f64 = 0.999;
+/// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
+/// MikkTSpace.
+pub const MESH_FRAME: f64 = 1e-5;
+
+/// Metres by which a position of about one metre may be off after a handful of affine maps in f32.
+pub const MESH_LENGTH: f64 = 1e-5;
+
+/// The ray's parameter at a hit of the micropolygon mesh: the rounding of a height over the angle between ray and facet.
+pub const MESH_PARAMETER: f64 = 1e-5;
+
+/// Share of rays through it that may end elsewhere: a ray that only just passes an edge, by rounding.
+pub const MESH_OFF_SHARE: f64 = 2e-3;
+
+/// Cells by which a pixel of rasterised micropolygons may be off: interpolation snaps corners to 1/256 pixel, and a pixel of that
+/// test is some 1.5 cells wide, several where the surface turns away.
+pub const MESH_PIXEL_CELLS: f64 = 0.05;
+
+/// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
+pub const MESH_PIXEL_SHARE: f64 = 2e-3;

@@ -1,6 +1,13 @@
 //! How it is seen.
 
+mod balls;
+mod facet;
+mod level_of_detail;
 mod light_disc;
+mod light_ggx;
+mod light_phong;
+mod march;
+mod micropolygon;
 mod ray_map;
 mod shadow_area;
 mod shadow_cone;
@@ -8,7 +15,17 @@ mod shadow_hard;
 mod shadow_none;
 mod shadow_pom_soft;
 mod shadow_steep;
+mod shell;
+mod sky;
+mod techniques;
 mod trace_exact;
+mod trace_mesh;
 mod trace_normal;
+mod trace_parallax;
+mod trace_parallax_limited;
 mod trace_pom;
+mod trace_pom_linear;
+mod trace_pyramid;
+mod trace_relief;
+mod trace_steep;
 mod traversal;

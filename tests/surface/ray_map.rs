@@ -6,8 +6,8 @@ use rilievo::field::Field;
 use rilievo::reference;
 use rilievo::scene::{Addressing, Scene};
 use rilievo::surface::channels::{Channel, Channels};
-use rilievo::surface::ray_map::{LinearForm, Target};
-use rilievo::surface::{Shadow, Shows, Technique, View};
+use rilievo::surface::ray_map::{LinearForm, Placement, Target};
+use rilievo::surface::{Choice, Shadow, Shows, Technique, View};
 
 use crate::support::gpu::{gpu, wait_for};
 use crate::support::tolerances::lattice_bound;
@@ -47,9 +47,10 @@ fn rays_meet_the_plane_where_geometry_says() {
     scene.trace.technique = Technique::Normal;
     scene.trace.shadow = Shadow::None;
     let field = Field::new(gpu, scene.field.size, Addressing::Clamp, false);
-    let pass = Channels::new(gpu, Technique::Normal, Shadow::None, scene.material.albedo).expect("its shaders compile");
+    let pass = Channels::new(gpu, Choice::of(&scene)).expect("its shaders compile");
     let image_size = [320, 240];
     let target = Target {
+        placement: Placement::default(),
         field_size: scene.field.size,
         plane_size_metres: scene.plane_size_metres(),
         depth_metres: f64::from(scene.plane.depth_metres),

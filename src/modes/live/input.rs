@@ -19,6 +19,8 @@ pub enum Action {
     Scene(usize),
     /// The next thing to look at.
     NextView,
+    /// Split the screen, or join it again.
+    ToggleSplit,
     /// The next technique.
     NextTechnique,
     /// Show or hide the panel.
@@ -72,6 +74,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     shortcut("Shift+R", "reset it with a new seed", &[Trigger::Shift("r")], Action::NewSeed),
     shortcut("T", "next technique", &[Trigger::Character("t")], Action::NextTechnique),
     shortcut("V", "next view", &[Trigger::Character("v")], Action::NextView),
+    shortcut("B", "split the screen, or not", &[Trigger::Character("b")], Action::ToggleSplit),
     shortcut("F", "fly, or orbit", &[Trigger::Character("f")], Action::ToggleFly),
     shortcut("C", "the scene's own camera", &[Trigger::Character("c")], Action::ResetCamera),
     shortcut(
@@ -90,6 +93,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
 /// Keys and buttons that are more than one action.
 pub const GESTURES: &[(&str, &str)] = &[
     ("1 … 9", "choose a scene"),
+    ("Drag the divider", "of a split screen"),
     ("Left mouse", "drop, or shoot, where the surface is"),
     ("Right mouse", "orbit, or look about in flight"),
     ("Middle, Shift+right", "pan"),

@@ -34,7 +34,6 @@ use crate::cli::LiveOptions;
 use crate::frame::{FrameInput, check_limits};
 use crate::io::scene_file::{self, LoadedScene, SceneOverrides};
 use crate::stroke::Strokes;
-use crate::surface::Shows;
 
 /// Runs the mode: opens a window and runs it until it is closed, or has shown the frames that a script wants.
 ///
@@ -74,8 +73,8 @@ fn framed_size(options: &LiveOptions) -> [u32; 2] {
 fn write_last_frame(mut session: Session, options: &LiveOptions, frames: u32, out: &Path) -> Result<(), ModeError> {
     session.frame.resize(&session.gpu, options.common.image_size)?;
     let (camera, tick) = session.last();
-    let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, shows: Shows::Picture };
-    capture::write_last_frame(&session.gpu, &session.frame, &input, DT_SECONDS, frames - 1, out)
+    let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, display: session.panel.display };
+    capture::write_last_frame(&session.gpu, &mut session.frame, &input, DT_SECONDS, frames - 1, out)
 }
 
 /// The program in a window.
@@ -167,7 +166,8 @@ impl Open {
         let gui = Gui::new(&gpu, window.clone(), screen.format(), panel::set_style);
         let pacing = if options.frames.is_some() { Pacing::Fixed } else { Pacing::Realtime };
         let session = Session::new(gpu, start(loaded), pacing, screen.size(), screen.format())?;
-        let session = session.with_scenes(scenes(&options.common.scene, loaded), scene_loader(options));
+        let mut session = session.with_scenes(scenes(&options.common.scene, loaded), scene_loader(options));
+        session.panel.display = options.common.display.display(&loaded.scene);
         let now = Instant::now();
         Ok(Self {
             session,

@@ -9,7 +9,7 @@ use crate::camera::Camera;
 use crate::frame::Frame;
 use crate::gpu::{Gpu, Readback, ShaderError};
 use crate::surface::probe::{Hit, Ray};
-use crate::surface::ray_map::{Target, pixel_ray};
+use crate::surface::ray_map::{Placement, Target, pixel_ray};
 use crate::surface::{Probe, Shadow, Shows, Technique, View};
 
 /// Asks the GPU what pixels show, and has the answers some frames later.
@@ -39,6 +39,7 @@ impl Picker {
     ) -> Result<(), ShaderError> {
         let (scene, image_size) = (frame.scene(), frame.image_size());
         let target = Target {
+            placement: Placement::default(),
             field_size: scene.field.size,
             plane_size_metres: scene.plane_size_metres(),
             depth_metres: f64::from(scene.plane.depth_metres),

@@ -77,6 +77,8 @@ impl Readings {
                 pass.history.pop_front();
             }
         }
+        // What did not run for as long as the graph shows is no pass of this frame any more.
+        self.passes.retain(|pass| pass.history.len() < HISTORY || pass.history.iter().any(|&time| time > 0.0));
         for (name, milliseconds) in sums {
             // Where it stands in the frame: before the first known pass that runs after it.
             let later = order.iter().skip_while(|&&other| other != name);
@@ -90,6 +92,11 @@ impl Readings {
     pub fn forget_passes(&mut self) {
         self.passes.clear();
         self.frame_seconds = None;
+    }
+
+    /// GPU time of a pass, smoothed; none where it was not measured.
+    pub fn milliseconds(&self, name: &str) -> Option<f64> {
+        self.passes.iter().find(|pass| pass.name == name).map(|pass| pass.milliseconds)
     }
 
     /// Frames a second, smoothed; 0 before the first.

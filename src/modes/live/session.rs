@@ -164,11 +164,11 @@ impl Session {
         }
     }
 
-    fn picture(&self) -> Result<Vec<u8>, ModeError> {
+    fn picture(&mut self) -> Result<Vec<u8>, ModeError> {
         let (camera, tick) = self.last();
-        let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, shows: self.panel.shows };
+        let input = FrameInput { tick: &tick, strokes: &Strokes::default(), camera: &camera, display: self.panel.display };
         let picture = Picture::new(&self.gpu, self.frame.image_size());
-        picture.draw(&self.gpu, &self.frame, &input)?;
+        picture.draw(&self.gpu, &mut self.frame, &input)?;
         picture.read(&self.gpu)
     }
 
@@ -184,8 +184,9 @@ impl Session {
             Action::NewSeed => self.reseed(),
             Action::Scene(index) => self.choose(index),
             Action::NextView => {
-                self.panel.shows = next(crate::surface::Shows::ALL, self.panel.shows);
-                self.panel.say(format!("View: {}", self.panel.shows.label()));
+                let shows = next(crate::surface::Shows::ALL, self.panel.display.shows);
+                self.panel.show_view(shows);
+                self.panel.say(format!("View: {}", shows.label()));
             }
             Action::NextTechnique => {
                 let technique = &mut self.panel.scene.trace.technique;
@@ -193,6 +194,7 @@ impl Session {
                 let label = technique.label();
                 self.panel.say(format!("Technique: {label}"));
             }
+            Action::ToggleSplit => self.panel.toggle_split(),
             Action::TogglePanel => self.panel.shown = !self.panel.shown,
             Action::ToggleKeys => self.panel.keys_shown = !self.panel.keys_shown,
             Action::HideKeys => self.panel.keys_shown = false,
@@ -225,7 +227,7 @@ impl Session {
         self.apply_scene();
         // An image has no seed.
         if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights);
+            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone());
         }
         self.restart();
         self.panel.say(format!("Seed {seed}"));
@@ -332,7 +334,7 @@ impl Session {
         hand.into_iter().for_each(|stroke| strokes.push(stroke));
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
         self.shown = self.rig.camera(self.tick.time_seconds);
-        let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, shows: self.panel.shows };
+        let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, display: self.panel.display };
         self.frame.record(&self.gpu, encoder, &input, target)
     }
 

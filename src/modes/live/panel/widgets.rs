@@ -9,6 +9,9 @@ pub const PANEL_WIDTH: f32 = 320.0;
 /// Width of the names, points.
 const NAME_WIDTH: f32 = 112.0;
 
+/// How high a list may be before it scrolls, points: room for a dozen and a half choices.
+const LIST_HEIGHT: f32 = 420.0;
+
 /// What a numeric control shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Control<'a> {
@@ -112,7 +115,7 @@ pub fn choice<T: Copy + PartialEq>(
 ) {
     let reset = row(ui, name, tip, *value != original, |ui| {
         let width = ui.available_width() - 24.0;
-        let combo = egui::ComboBox::from_id_salt(name).width(width).truncate().selected_text(label(*value));
+        let combo = egui::ComboBox::from_id_salt(name).width(width).height(LIST_HEIGHT).truncate().selected_text(label(*value));
         combo.show_ui(ui, |ui| all.iter().for_each(|&other| drop(ui.selectable_value(value, other, label(other))))).response
     });
     if reset {

@@ -1,0 +1,84 @@
+//! The panel's group of what moves by itself: waves and rain, shots.
+
+use egui::{RichText, Ui};
+
+use super::Panel;
+use super::widgets::{Control, choice, group, value};
+use crate::scene::{Boundary, Rain};
+
+impl Panel {
+    pub(super) fn simulation_group(&mut self, ui: &mut Ui) {
+        let (scene, original) = (&mut self.scene, &self.original);
+        // Two sponges and a texel of water between them.
+        let widest_sponge = f64::from(scene.field.size[0].min(scene.field.size[1]).saturating_sub(1) / 2).clamp(1.0, 256.0);
+        let changed = scene.wave != original.wave || scene.shots != original.shots;
+        let reset = group(ui, "Simulation", true, Some(changed), |ui| {
+            if let (Some(wave), Some(was)) = (&mut scene.wave, &original.wave) {
+                let control = Control::new("Wave speed", " m/s", 0.01, 2.0).logarithmic().tip("How fast waves travel");
+                value(ui, &control, &mut wave.speed_metres_per_second, was.speed_metres_per_second);
+                let tip = "How fast waves die away: by e^(−rate/2) a second";
+                let control = Control::new("Damping", " /s", 0.0, 10.0).tip(tip);
+                value(ui, &control, &mut wave.damping_per_second, was.damping_per_second);
+                let control = Control::new("Amplitude", "", 0.0, 1.0).tip("Height that a wave of amplitude 1 adds, of the depth");
+                value(ui, &control, &mut wave.amplitude, was.amplitude);
+                const BOUNDARY: &str = "What a wave meets at the border";
+                choice(ui, "Border", BOUNDARY, &mut wave.boundary, was.boundary, BOUNDARIES, boundary_label);
+                if wave.boundary == Boundary::Absorbing {
+                    let control = Control::new("Sponge", " texels", 1.0, widest_sponge)
+                        .integer()
+                        .tip("Width of the layer that swallows waves");
+                    value(ui, &control, &mut wave.sponge_texels, was.sponge_texels);
+                }
+                let rain_was = was.rain.clone().unwrap_or_default();
+                let mut rains = wave.rain.is_some();
+                if ui.checkbox(&mut rains, "Rain").on_hover_text("Seeded drops upon the water").changed() {
+                    wave.rain = rains.then(|| rain_was.clone());
+                }
+                if let Some(rain) = &mut wave.rain {
+                    rain_rows(ui, rain, &rain_was);
+                }
+            }
+            if let (Some(shots), Some(was)) = (&mut scene.shots, &original.shots) {
+                let control = Control::new("Shots", " /s", 0.0, 100.0).decimals(1).tip("Seeded shots at the wall");
+                value(ui, &control, &mut shots.per_second, was.per_second);
+                for (index, name) in ["Smallest crater", "Largest crater"].into_iter().enumerate() {
+                    let control = Control::new(name, " mm", 1.0, 200.0).scale(1e3).decimals(1).tip("Radius of its rim");
+                    value(ui, &control, &mut shots.radius_metres[index], was.radius_metres[index]);
+                }
+                shots.radius_metres[1] = shots.radius_metres[1].max(shots.radius_metres[0]);
+                let tip = "How deep a crater of the largest radius is";
+                let control = Control::new("Crater depth", " mm", 0.0, 100.0).scale(1e3).decimals(1).tip(tip);
+                value(ui, &control, &mut shots.depth_metres, was.depth_metres);
+                let control = Control::new("Scorch", "", 0.0, 1.0).tip("How black the soot around it is");
+                value(ui, &control, &mut shots.scorch, was.scorch);
+            }
+            if scene.wave.is_none() && scene.shots.is_none() {
+                ui.label(RichText::new("Nothing moves by itself in this scene.").weak());
+            }
+        });
+        if reset {
+            scene.wave = original.wave.clone();
+            scene.shots = original.shots.clone();
+        }
+    }
+}
+
+fn rain_rows(ui: &mut Ui, rain: &mut Rain, was: &Rain) {
+    let control = Control::new("Drops", " /s", 0.0, 200.0).decimals(0).tip("Mean number of drops a second");
+    value(ui, &control, &mut rain.drops_per_second, was.drops_per_second);
+    let control = Control::new("Drop radius", " mm", 2.0, 200.0).scale(1e3).decimals(1).tip("Radius of a drop's dent");
+    value(ui, &control, &mut rain.radius_metres, was.radius_metres);
+    let control = Control::new("Drop strength", " ×", 0.0, 4.0).tip("Depth of a drop's dent, in amplitudes");
+    value(ui, &control, &mut rain.strength, was.strength);
+}
+
+const BOUNDARIES: &[Boundary] = &[Boundary::Periodic, Boundary::Reflecting, Boundary::Fixed, Boundary::Absorbing];
+
+fn boundary_label(boundary: Boundary) -> &'static str {
+    match boundary {
+        Boundary::Periodic => "The opposite border",
+        Boundary::Reflecting => "A wall",
+        Boundary::Fixed => "A held border",
+        Boundary::Absorbing => "A sponge",
+    }
+}

@@ -1,0 +1,6 @@
+mod files;
+mod gltf;
+mod obj;
+mod shapes;
+mod skin;
+pub mod write;
