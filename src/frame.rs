@@ -18,8 +18,9 @@ use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
+use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, View, ViewSet, view};
+use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,17 +33,24 @@ pub struct Start {
     pub material: Vec<u32>,
     /// The mesh that carries the relief; none: the plane.
     pub mesh: Option<Mesh>,
+    /// The picture over it, if any.
+    pub colours: Option<ColourImage>,
 }
 
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh };
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = base::POST_MATERIAL;
         }
         start
+    }
+
+    /// The same under a picture, if there is one.
+    pub fn with_colours(self, colours: Option<ColourImage>) -> Self {
+        Self { colours, ..self }
     }
 }
 
@@ -148,7 +156,11 @@ impl Frame {
     pub fn new(gpu: &Gpu, start: &Start, image_size: [u32; 2], target: wgpu::TextureFormat) -> Result<Self, FrameError> {
         let scene = start.scene.clone();
         check_limits(gpu, &scene, image_size)?;
-        let field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
+        let mut field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
+        if let Some(colours) = &start.colours {
+            check_texture(gpu, "an albedo image", colours.size, "scale it down")?;
+            field.albedo_map = albedo_image::upload(gpu, colours);
+        }
         let view_layout = view::layout(gpu);
         let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
         let waves = match &scene.wave {
@@ -319,12 +331,20 @@ impl Frame {
         } else {
             self.stage = None;
         }
+        if let Some(stage) = self.stage.as_mut().filter(|_| self.scene.trace.technique != Technique::Mesh) {
+            stage.forget_micropolygons();
+        }
         self.build_sides(gpu, &Display::default())
     }
 
     /// Builds what each side of what is shown needs and is not there yet.
     fn build_sides(&mut self, gpu: &Gpu, display: &Display) -> Result<(), ShaderError> {
-        for (index, side) in self.sides(display).iter().enumerate() {
+        let sides = self.sides(display);
+        // One side may need a stage where the scene itself does not.
+        if self.stage.is_none() && sides.iter().any(|side| Stage::is_needed(&side.scene)) {
+            self.set_stage(gpu);
+        }
+        for (index, side) in sides.iter().enumerate() {
             if let Some(stage) = &mut self.stage {
                 stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
                 continue;
@@ -552,6 +572,16 @@ fn slope_per_height(scene: &Scene) -> [f32; 2] {
     [slope, slope]
 }
 
+/// Checks a texture's size against the adapter.
+fn check_texture(gpu: &Gpu, what: &'static str, size: [u32; 2], remedy: &'static str) -> Result<(), FrameError> {
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if size.iter().any(|&edge| edge > limit) {
+        let (limit, unit) = (u64::from(limit), "texels an axis");
+        return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit, remedy });
+    }
+    Ok(())
+}
+
 /// Checks every size against the adapter, before anything is made.
 ///
 /// # Errors
@@ -559,18 +589,10 @@ fn slope_per_height(scene: &Scene) -> [f32; 2] {
 /// A size is beyond a limit; the error names it.
 pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<(), FrameError> {
     let limits = gpu.device.limits();
-    let texture = u64::from(limits.max_texture_dimension_2d);
-    let check = |what, size: [u32; 2], remedy| {
-        if size.iter().any(|&edge| u64::from(edge) > texture) {
-            Err(FrameError::Limit { what, width: size[0], height: size[1], limit: texture, unit: "texels an axis", remedy })
-        } else {
-            Ok(())
-        }
-    };
-    check("a field", scene.field.size, "ask for a smaller one with --field")?;
+    check_texture(gpu, "a field", scene.field.size, "ask for a smaller one with --field")?;
     let ways_out = "ask for a smaller one with --size, or for less supersampling in the scene";
     let traced = image_size.map(|pixels| pixels.saturating_mul(scene.trace.supersampling));
-    check("a picture", traced, ways_out)?;
+    check_texture(gpu, "a picture", traced, ways_out)?;
     // The buffers that a picture and a field are read back through: four bytes a texel, rows padded.
     let readable = |what, size: [u32; 2], remedy| {
         let row = u64::from((4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));

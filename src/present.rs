@@ -34,10 +34,7 @@ pub struct PresentSide {
 impl PresentSide {
     /// A side that shows this, of a display with this gain.
     pub fn new(shows: Shows, gain: f32) -> Self {
-        Self {
-            tone_map: u32::from(matches!(shows, Shows::Picture | Shows::LodTint)),
-            legend: shows.heat_top(gain).unwrap_or(0.0),
-        }
+        Self { tone_map: u32::from(shows.is_picture()), legend: shows.heat_top(gain).unwrap_or(0.0) }
     }
 }
 

@@ -8,6 +8,7 @@ mod framing;
 mod lights;
 mod lod;
 mod techniques;
+mod text;
 mod validate;
 
 use std::path::PathBuf;
@@ -21,6 +22,7 @@ pub use bodies::{Ball, Mesh};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
 pub use techniques::{PomCounts, PyramidLeaf};
+pub use text::{Text, TextRelief, check_text};
 pub use validate::{
     COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES,
     check_camera,
@@ -140,6 +142,16 @@ pub enum Base {
     Fur {},
     /// A lawn with daisies, the same that the `grass` albedo colours.
     Grass {},
+    /// Mountains with gullies over a valley: a landscape to look at, the same that the `terrain` albedo colours.
+    Landscape {},
+    /// Plains, highlands and craters by longitude and latitude, for a sphere; the same that the `planet` albedo colours.
+    Planet {},
+    /// A carved panel that continues itself.
+    Ornament {},
+    /// What a depth camera sees of a table with a vase, fruit and books: heights, and colours for albedo `image`.
+    StillLife {},
+    /// A sign: text in relief.
+    Text(Text),
     /// An image's heights.
     Image {
         /// A PNG or EXR file.
@@ -308,6 +320,8 @@ pub struct Light {
 pub struct Material {
     /// Its colours.
     pub albedo: Albedo,
+    /// A PNG image over the field, for albedo `image`.
+    pub image: Option<PathBuf>,
     /// Tint of the albedo, linear.
     #[serde(deserialize_with = "exactly")]
     pub tint: [f32; 3],
@@ -482,6 +496,7 @@ impl Default for Material {
     fn default() -> Self {
         Self {
             albedo: Albedo::Plain,
+            image: None,
             tint: [1.0, 1.0, 1.0],
             model: Shading::Phong,
             specular: 0.2,

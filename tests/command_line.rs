@@ -61,6 +61,12 @@ fn arguments_alone_exit_with_2() {
         (&["capture", "--out", "out", "--frames", "0"], "--frames"),
         (&["capture", "--out", "out", "--dt", "-1"], "--dt"),
         (&["capture", "--out", "out", "--scene", "nowhere", "--field", "0"], "--field"),
+        (&["capture", "--out", "out", "--text", ""], "--text"),
+        (&["capture", "--out", "out", "--text", " \n "], "no letters"),
+        (&["capture", "--out", "out", "--text", "a\tb"], "U+0009"),
+        (&["capture", "--out", "out", "--text", "a", "--height", "b.png"], "exclude each other"),
+        (&["capture", "--out", "out", "--text", "a", "--height-range", "0,2"], "exclude each other"),
+        (&["capture", "--out", "out", "--font", "a.ttf", "--height", "b.png"], "exclude each other"),
         (&["stress", "--stamp-radius", "nan"], "--stamp-radius"),
         (&["live", "--fov", "180"], "--fov"),
         (&["compare", "--techniques", "pom,exat"], "did you mean `exact`"),
@@ -100,7 +106,7 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
     fs::write(path.join("far.toml"), "version = 9\n").expect("the directory can be written");
     let before = names(path);
     for (arguments, part) in [
-        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall, relief, sidewalk, fur and grass?"),
+        (&["--scene", "riples"][..], "did you mean `ripples`, of ripples, bullet-wall, "),
         (&["--scene", "missing.toml"], "no such file"),
         (&["--scene", "./"], "directory"),
         (&["--scene", "broken.toml"], "broken.toml, line 3: unknown field `courrant`"),
@@ -112,6 +118,14 @@ fn unfit_content_exits_with_1_and_leaves_nothing() {
         (&["--height", "empty.png"], "empty"),
         (&["--height", "text.png"], "text, not a PNG"),
         (&["--height-range", "0,2"], "--height"),
+        (&["--text", "a漢"], "has no glyph for `漢` (U+6F22)"),
+        (&["--scene", "text", "--font", "missing.ttf"], "missing.ttf: there is no such file"),
+        (&["--scene", "text", "--font", "text.png"], "text.png is not a TTF or OTF font"),
+        (&["--scene", "text", "--font", "empty.png"], "empty"),
+        (&["--font", "missing.ttf"], "--text"),
+        (&["--albedo", "missing.png"], "missing.png: there is no such file"),
+        (&["--albedo", "text.png"], "text, not a PNG"),
+        (&["--albedo", "."], "directory"),
         // The scene is read before the image, and the image before anything of the adapter's.
         (&["--scene", "broken.toml", "--height", "missing.png"], "line 3"),
         (&["--height", "missing.png", "--adapter", "none of this name"], "missing.png"),

@@ -51,6 +51,7 @@ fn compositions() -> Vec<Vec<String>> {
             all.push(surface::parts(true, choice, geometry.stems()));
         }
     }
+    all.push(surface::parts(true, Choice { caps_level: true, ..plain }, &["surface"]));
     for &shading in Shading::ALL {
         all.push(surface::parts(true, Choice { shading, ..plain }, &["light_probe"]));
         for with_truth in [false, true] {
@@ -173,6 +174,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 light_count,
                 light_radius,
                 area_samples,
+                level_cap,
                 lights,
                 direction_x,
                 direction_y,

@@ -1,5 +1,5 @@
 // Hashes and value noise for procedural materials. The hash is PCG's output function (O'Neill 2014) over a mixed coordinate; its
-// Rust twin in src/field/base.rs gives the same bits, so that colours can follow heights.
+// Rust twin in src/field/base/noise.rs gives the same bits, so that colours can follow heights.
 
 fn hash_u32(x: u32) -> u32 {
     let state = x * 747796405u + 2891336453u;
@@ -22,4 +22,17 @@ fn value_noise(position: vec2f, salt: u32) -> f32 {
     let low = mix(hash_cell(i, salt), hash_cell(i + vec2i(1, 0), salt), s.x);
     let high = mix(hash_cell(i + vec2i(0, 1), salt), hash_cell(i + vec2i(1, 1), salt), s.x);
     return mix(low, high, s.y);
+}
+
+// Four octaves of it, in [0, 1).
+fn fractal_noise(position: vec2f, salt: u32) -> f32 {
+    var sum = 0.0;
+    var weight = 0.5;
+    var p = position;
+    for (var octave = 0u; octave < 4u; octave++) {
+        sum += weight * value_noise(p, salt + octave);
+        p = 2.0 * p + 17.3;
+        weight *= 0.5;
+    }
+    return sum / 0.9375;
 }

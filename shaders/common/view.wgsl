@@ -92,6 +92,7 @@ struct View {
     light_count: u32,
     light_radius: f32,           // tangent of half the angle that the light's disc spans
     area_samples: u32,           // points of the light's disc
+    level_cap: u32,              // of the view that ends the traversal at a level
     lights: array<ViewLight, 4>, // the first is that of light_world and light_radiance
 
     // The pixel's direction in the world, with unit length along the view axis.

@@ -1,6 +1,6 @@
 // Brick: running bond, each brick of its own firing, mortar between, pale dust where a shot broke it open.
 //
-// The layout is that of the base `bricks` (src/field/base.rs), which owns the constants.
+// The layout is that of the base `bricks` (src/field/base/masonry.rs), which owns the constants.
 
 override BRICK_LENGTH: f32; // metres, its joint included
 override BRICK_HEIGHT: f32;

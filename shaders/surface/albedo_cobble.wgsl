@@ -1,4 +1,4 @@
-// Cobble: rounded stones of several greys in dark sand. The layout is that of the base `cobbles` (src/field/base.rs).
+// Cobble: rounded stones of several greys in dark sand. The layout is that of the base `cobbles` (src/field/base/masonry.rs).
 
 override COBBLE_SIZE: f32; // metres from stone to stone
 

@@ -31,7 +31,7 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let size = mix(0.75, 1.1, hash_cell(rosette, 117u));
     let ring = smoothstep(0.17, 0.24, nearest / size) * (1.0 - smoothstep(0.34, 0.42, nearest / size));
     let broken = smoothstep(0.28, 0.44, value_noise(toward * 5.5 + 31.0 * vec2f(rosette), 118u));
-    let hue = fractal_noise(metres * 26.0, 119u);
+    let hue = noise_over(metres, 26.0, 119u);
     let hair = value_noise(metres * 1900.0, 123u);
     let gold = mix(vec3f(0.62, 0.37, 0.13), vec3f(0.86, 0.68, 0.42), hue);
     let inner = mix(gold * vec3f(0.72, 0.60, 0.48), gold, smoothstep(0.16, 0.30, nearest / size));

@@ -13,7 +13,7 @@ fn glass_behind(position: vec3f, direction: vec3f) -> vec3f {
     }
     let metres = (position + direction * ((table - position.y) / direction.y)).xz;
     let square = vec2i(floor(metres / GLASS_SQUARE_METRES));
-    let grain = fractal_noise(metres * vec2f(18.0, 220.0), 83u);
+    let grain = noise_over(metres * vec2f(18.0 / 220.0, 1.0), 220.0, 83u);
     let odd = ((square.x + square.y) & 1) == 1;
     let wood = select(vec3f(0.62, 0.44, 0.26), vec3f(0.115, 0.06, 0.035), odd) * mix(0.78, 1.12, grain);
     // Where its light crossed the pane, level as a whole.

@@ -11,7 +11,7 @@ const GRASS_ROOT: f32 = 0.12;
 fn matter_at(point: SurfacePoint) -> Matter {
     let stamped = stamped_matter(point.lattice);
     let metres = plane_metres(point.lattice);
-    let patch_noise = fractal_noise(metres * 11.0, 121u);
+    let patch_noise = noise_over(metres, 11.0, 121u);
     let blade = value_noise(metres * 420.0, 122u);
     let green = mix(vec3f(0.090, 0.215, 0.030), vec3f(0.245, 0.400, 0.070), patch_noise);
     let dry = vec3f(0.46, 0.42, 0.16);

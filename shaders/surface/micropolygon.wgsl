@@ -6,7 +6,8 @@
 //   radiance  rgba16float   write
 //   depth     depth32float  write  the relief's: there is no other polygon
 //
-// A mesh moves inward along the same directions as its shell and so has the shell's silhouette. The plane alone is drawn beyond its
+// A mesh moves inward along the same directions as its shell and so has the shell's silhouette; over the borders of an open one stand
+// walls, down to the floor. The plane alone is drawn beyond its
 // border, as the field goes on there, and clipped to the pixels that show the plane, as every other technique shows it.
 //
 // Needs surface/raster. The surface that it shows over a plane is that of surface/trace_mesh.
@@ -30,7 +31,7 @@ fn micropolygon_vertex(
     @location(2) inward: vec3f,          // from the surface to the floor of the shell, in units of the depth
     @location(3) metres_per_uv: vec2f,
     @location(4) normal: vec4f,          // unit; w is the sign of the bitangent
-    @location(5) tangent: vec4f,
+    @location(5) tangent: vec4f,         // unit; w is 1 at the foot of a wall
 ) -> Micropolygon {
     view = view_buffer;
     // The first instance is the tile itself, the others the eight around it.
@@ -38,7 +39,7 @@ fn micropolygon_vertex(
     let tile = vec2f(f32(place % 3u), f32(place / 3u)) - 1.0;
     let lattice = (uv + tile) * vec2f(view.field_size) - 0.5;
     // Heights of the tile itself, to the bit.
-    let height = load_surface(uv * vec2f(view.field_size) - 0.5);
+    let height = select(load_surface(uv * vec2f(view.field_size) - 0.5), 0.0, tangent.w > 0.5);
     let offset = tile.x * view.plane_size_metres.x * view.u_world + tile.y * view.plane_size_metres.y * view.v_world;
     let world = base + offset + inward * ((1.0 - height) * view.depth_metres);
     return Micropolygon(
@@ -46,8 +47,13 @@ fn micropolygon_vertex(
     );
 }
 
-// The point that a fragment shows; sets the frame. Interpolation places it to the rasteriser's grid of some 1/256 pixel: it is put back
-// onto the pixel's own ray.
+// From the point that interpolation gives, good to the rasteriser's grid of some 1/256 pixel, to the pixel's own ray.
+fn micropolygon_aside(shown: Micropolygon) -> vec3f {
+    let from_eye = raster_from_eye(shown.world);
+    return dot(from_eye, view.forward_world) * raster_direction(shown.position.xy) - from_eye;
+}
+
+// The point that a fragment shows; sets the frame.
 fn micropolygon_hit(shown: Micropolygon) -> Hit {
     if view.planar != 0u {
         frame = plane_frame();
@@ -55,9 +61,7 @@ fn micropolygon_hit(shown: Micropolygon) -> Hit {
         let t = 1.0 - shown.height;
         return Hit(ray_at(ray, t), shown.height, t, 0u, HIT);
     }
-    let direction = raster_direction(shown.position.xy);
-    let from_eye = raster_from_eye(shown.world);
-    let aside = dot(from_eye, view.forward_world) * direction - from_eye;
+    let aside = micropolygon_aside(shown);
     let normal = normalize(shown.normal);
     let tangent = normalize(shown.tangent.xyz - normal * dot(normal, shown.tangent.xyz));
     let bitangent = cross(normal, tangent) * shown.tangent.w;
@@ -69,6 +73,39 @@ fn micropolygon_hit(shown: Micropolygon) -> Hit {
     frame.anchor = lattice;
     frame.normal = normal;
     return Hit(lattice, shown.height, 1.0 - shown.height, 0u, HIT);
+}
+
+// The pixel's ray, over the polygon that the micropolygons stand for.
+fn micropolygon_ray(shown: Micropolygon, hit: Hit) -> Ray {
+    if view.planar != 0u {
+        return pixel_ray(shown.position.xy).ray;
+    }
+    let way = field_displacement(normalize(raster_direction(shown.position.xy)));
+    let travel = way.xy / max(-way.z, 1e-3 / view.depth_metres);
+    let start = hit.lattice - (1.0 - hit.height) * travel;
+    let cell = floor(start);
+    return view_ray(start - cell, travel, vec2i(cell));
+}
+
+fn micropolygon_outcome(shown: Micropolygon) -> Shaded {
+    let hit = micropolygon_hit(shown);
+    return shade_hit(micropolygon_ray(shown, hit), hit);
+}
+
+fn micropolygon_wall_outcome(shown: Micropolygon) -> Shaded {
+    let hit = micropolygon_wall_hit(shown);
+    return shade_hit(micropolygon_ray(shown, hit), hit);
+}
+
+// The same of a wall: a cut through the relief, under its surface.
+fn micropolygon_wall_hit(shown: Micropolygon) -> Hit {
+    let normal = normalize(shown.normal);
+    let reference = shown.world + micropolygon_aside(shown) - shown.inward * ((1.0 - shown.height) * view.depth_metres);
+    // Any cells do: it is the wall itself that is seen.
+    frame = frame_of(shown.lattice, reference, normalize(shown.tangent.xyz), -normal, shown.inward * -view.depth_metres);
+    frame.normal = normalize(-shown.inward);
+    frame.cut = normal;
+    return Hit(shown.lattice, shown.height, 0.0, 0u, HIT);
 }
 
 // How much of the pixel it may show.
@@ -86,7 +123,7 @@ fn micropolygon(varyings: Micropolygon) -> @location(0) vec4f {
     if coverage == 0.0 {
         discard;
     }
-    return vec4f(shown(shade_hit(micropolygon_hit(varyings))), coverage);
+    return vec4f(shown(micropolygon_outcome(varyings)), coverage);
 }
 
 @fragment
@@ -95,5 +132,17 @@ fn micropolygon_channel(varyings: Micropolygon) -> @location(0) vec4f {
     if view.planar == 2u && !shows_plane(pixel_ray(varyings.position.xy)) {
         discard;
     }
-    return channel_part(channel_of(shade_hit(micropolygon_hit(varyings))));
+    return channel_part(channel_of(micropolygon_outcome(varyings)));
+}
+
+@fragment
+fn micropolygon_wall(varyings: Micropolygon) -> @location(0) vec4f {
+    view = view_buffer;
+    return vec4f(shown(micropolygon_wall_outcome(varyings)), 1.0);
+}
+
+@fragment
+fn micropolygon_wall_channel(varyings: Micropolygon) -> @location(0) vec4f {
+    view = view_buffer;
+    return channel_part(channel_of(micropolygon_wall_outcome(varyings)));
 }

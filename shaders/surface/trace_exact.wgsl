@@ -5,6 +5,7 @@
 
 fn trace(ray: Ray) -> Hit {
     traversal_detail = footprint.trace_level;
+    hit_level = i32(traversal_detail);
     let hit = traversal(ray, traversal_begin(ray));
     traversal_detail = 0.0;
     return hit;

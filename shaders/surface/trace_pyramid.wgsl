@@ -51,7 +51,7 @@ fn trace_pyramid_leaf(ray: Ray, way: TraversalWay, place: TraversalPlace, per_tr
     return 2.0 * t_out + 1.0;
 }
 
-fn trace(ray: Ray) -> Hit {
+fn trace_pyramid(ray: Ray) -> Hit {
     let still = abs(ray.travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(ray.travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(ray.travel, vec2f(TRAVERSAL_STILL), still);
@@ -59,6 +59,7 @@ fn trace(ray: Ray) -> Hit {
     let falls = ray.rise < 0.0;
     let half_pixel = 0.5 / max(length(travel), 1e-20);
 
+    let finest = min(i32(traversal_detail), way.top);
     var place = traversal_place(ray, way, ray.lattice, way.top);
     var t = 0.0;
     var steps = 0u;
@@ -74,7 +75,14 @@ fn trace(ray: Ray) -> Hit {
         let t_bound = (bound - ray.height) / select(-1.0, ray.rise, falls);
         let t_under = select(t, max(t, t_bound), falls);
         let enters = select(ray_height(ray, t) <= bound, t_under <= t_out, falls);
-        if enters && place.level == 0 {
+        if enters && traversal_detail > 0.0 && place.level == finest {
+            // [PDM] §3.4: the traversal ends at the pixel's own level.
+            let share = traversal_coarse_leaf(ray, t_under, t_out);
+            hit_level = place.level;
+            if share <= 1.0 {
+                return hit_at(ray, mix(t_under, t_out, share), steps);
+            }
+        } else if enters && place.level == 0 {
             let t_column = trace_pyramid_leaf(ray, way, place, per_travel, t_under, t_out);
             if t_column <= t_out {
                 if view.pyramid_leaf != TRACE_PYRAMID_REFINED {
@@ -99,7 +107,7 @@ fn trace(ray: Ray) -> Hit {
                 continue;
             }
         }
-        let descends = enters && place.level > 0;
+        let descends = enters && place.level > finest;
         if !descends && t_out >= ray.t_end {
             return end_of(ray, steps);
         }
@@ -107,4 +115,11 @@ fn trace(ray: Ray) -> Hit {
         place = traversal_onward(way, place, node, ray.lattice + t * travel, descends, crosses);
     }
     return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, CAPPED);
+}
+
+fn trace(ray: Ray) -> Hit {
+    traversal_detail = footprint.trace_level;
+    let hit = trace_pyramid(ray);
+    traversal_detail = 0.0;
+    return hit;
 }

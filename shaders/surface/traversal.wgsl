@@ -186,6 +186,7 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
         var hit: f32;
         if traversal_detail > 0.0 {
             hit = traversal_coarse_leaf(ray, t_under, t_out);
+            hit_level = place.level;
         } else {
             hit = traversal_leaf(ray, travel, way, place, t_under, t_out);
         }

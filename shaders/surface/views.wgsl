@@ -11,6 +11,7 @@ const SHOW_STEPS: u32 = 4u;
 const SHOW_UVOFFSET: u32 = 5u;
 const SHOW_LEVEL: u32 = 6u;
 const SHOW_ERROR: u32 = 7u;
+const SHOW_LEVELCAP: u32 = 8u;
 const SHOW_MIPLEVEL: u32 = 16u;
 const SHOW_LODTINT: u32 = 17u;
 

@@ -8,7 +8,7 @@ use super::Verbosity;
 use super::display::DisplayOptions;
 use super::values::{
     Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, non_empty, pom_counts, pom_counts_help,
-    pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, size, switch, technique,
+    pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size, switch, technique,
     technique_help, whole_u64,
 };
 use crate::gpu::Preference;
@@ -73,6 +73,19 @@ pub struct CommonOptions {
     #[arg(long, value_name = "LO,HI", value_parser = height_range, allow_hyphen_values = true, help_heading = "Scene")]
     height_range: Option<[f32; 2]>,
 
+    /// Text in relief, as large as fits, that replaces the scene's starting height; \n begins another line [default: none, the scene's own]
+    #[arg(long, value_name = "STRING", value_parser = sign, allow_hyphen_values = true, help_heading = "Scene")]
+    #[arg(conflicts_with_all = ["height", "height_range"])]
+    text: Option<String>,
+
+    /// A TTF or OTF file for the text [default: the scene's, the program's own unless its file says otherwise]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["height", "height_range"], help_heading = "Scene")]
+    font: Option<PathBuf>,
+
+    /// A PNG file whose colours lie over the whole field [default: none, the scene's albedo]
+    #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
+    albedo: Option<PathBuf>,
+
     /// Depth of height 0 below the plane, metres [default: the scene's]
     #[arg(long, value_name = "METRES", value_parser = depth, allow_negative_numbers = true, help_heading = "Scene")]
     depth: Option<f32>,
@@ -116,6 +129,9 @@ impl CommonOptions {
         SceneOverrides {
             height: self.height.clone(),
             height_range: self.height_range,
+            text: self.text.clone(),
+            font: self.font.clone(),
+            albedo: self.albedo.clone(),
             field: self.field,
             depth_metres: self.depth,
             mesh: self.mesh.clone(),

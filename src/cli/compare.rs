@@ -6,9 +6,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use super::CommonOptions;
-use super::values::{
-    camera, field_width, frames, gain, samples, shadow, shadows_help, technique, techniques_help, truth, whole_u32,
-};
+use super::values::{camera, field_width, frames, samples, shadow, shadows_help, technique, techniques_help, truth, whole_u32};
 use crate::io::scene_file::CameraPlacement;
 use crate::surface::{Shadow, Technique};
 
@@ -72,10 +70,6 @@ pub struct CompareOptions {
     /// Hold the table against an earlier one, in JSON, and fail where it got worse [default: none]
     #[arg(long, value_name = "FILE")]
     pub check: Option<PathBuf>,
-
-    /// How bright pictures show an error: the brightest is 1/G texel
-    #[arg(long, value_name = "G", value_parser = gain, default_value = "1", allow_negative_numbers = true)]
-    pub gain: f64,
 }
 
 impl CompareOptions {
@@ -111,6 +105,9 @@ impl CompareOptions {
         }
         if same(&self.json, &self.csv) {
             return Err("`--json` and `--csv` name the same file: give them two".to_owned());
+        }
+        if !self.common.display.is_plain() {
+            return Err("compare makes pictures of its own: leave out `--view` and `--split`".to_owned());
         }
         Ok(self)
     }

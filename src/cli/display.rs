@@ -13,9 +13,13 @@ pub struct DisplayOptions {
     #[arg(long, value_name = "NAME", value_parser = view, default_value = "final", help = view_help(), help_heading = "View")]
     view: Shows,
 
-    /// Gain of the view `error`: its brightest heat is an error of 1/G texels
+    /// Gain of the view `error`, and of the pictures of errors that compare writes: their brightest heat is an error of 1/G texels
     #[arg(long, value_name = "G", value_parser = gain, default_value = "1", allow_negative_numbers = true, help_heading = "View")]
     gain: f32,
+
+    /// Level of the pyramid at which the traversal of the view `level-cap` ends
+    #[arg(long, value_name = "LEVEL", value_parser = level, default_value = "3", allow_negative_numbers = true, help_heading = "View")]
+    level_cap: u32,
 
     /// Show the right side, from this share of the width on, by another technique and shadow [default: none, one picture; the
     /// shadow of the left side, from 0.5 on]
@@ -32,6 +36,16 @@ struct SplitOption {
 }
 
 impl DisplayOptions {
+    /// Gain of what shows errors.
+    pub fn gain(&self) -> f64 {
+        self.gain.into()
+    }
+
+    /// Whether nothing else than the plain picture is asked for.
+    pub fn is_plain(&self) -> bool {
+        self.view == Shows::default() && self.split.is_none()
+    }
+
     /// What is shown of a scene.
     pub fn display(&self, scene: &Scene) -> Display {
         let split = self.split.map(|SplitOption { technique, shadow, fraction }| Split {
@@ -40,7 +54,7 @@ impl DisplayOptions {
             shows: self.view,
             fraction,
         });
-        Display { shows: self.view, gain: self.gain, split }
+        Display { shows: self.view, gain: self.gain, level_cap: self.level_cap, split }
     }
 }
 
@@ -56,6 +70,10 @@ fn view(text: &str) -> Result<Shows, String> {
 fn gain(text: &str) -> Result<f32, String> {
     let range = Range::above(0.0, 1e6, "");
     text.parse().ok().filter(|&gain: &f32| range.contains(gain.into())).ok_or_else(|| format!("it must be {range}"))
+}
+
+fn level(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|level| *level < 32).ok_or_else(|| "it must be a whole number from 0 to 31".to_owned())
 }
 
 fn split(text: &str) -> Result<SplitOption, String> {
@@ -104,10 +122,10 @@ mod tests {
     fn the_right_side_has_the_shadow_of_the_left_unless_told() {
         let mut scene = Scene::default();
         scene.trace.shadow = Shadow::PomSoft;
-        let options = |text| DisplayOptions { view: Shows::Steps, gain: 2.0, split: split(text).ok() };
+        let options = |text| DisplayOptions { view: Shows::Steps, gain: 2.0, level_cap: 5, split: split(text).ok() };
         let shown = options("pom@0.25").display(&scene);
         let right = Split { technique: Technique::Pom, shadow: Shadow::PomSoft, shows: Shows::Steps, fraction: 0.25 };
-        assert_eq!(shown, Display { shows: Shows::Steps, gain: 2.0, split: Some(right) });
+        assert_eq!(shown, Display { shows: Shows::Steps, gain: 2.0, level_cap: 5, split: Some(right) });
         assert_eq!(options("pom:hard").display(&scene).split.map(|split| split.shadow), Some(Shadow::Hard));
     }
 }

@@ -24,7 +24,8 @@ pub(super) fn sentence(error: &clap::Error) -> String {
     // clap says `--size <WxH>`; the flag alone reads better.
     let flag = |kind| text(kind).map(|argument| argument.split(" <").next().unwrap_or_default().to_owned());
     let argument = flag(ContextKind::InvalidArg).unwrap_or_default();
-    let value = text(ContextKind::InvalidValue).unwrap_or_default();
+    // One sentence is one line, whatever someone writes into an argument.
+    let value = text(ContextKind::InvalidValue).unwrap_or_default().replace(char::is_control, "\u{fffd}");
     match error.kind() {
         ErrorKind::UnknownArgument => match text(ContextKind::SuggestedArg) {
             Some(near) => format!("unknown argument `{argument}`: did you mean `{near}`, of those that `--help` lists?"),

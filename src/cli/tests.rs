@@ -48,8 +48,8 @@ fn without_a_mode_it_is_live() {
 fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
-         --height-range -5,7.5 --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --light-angle 2.5 --lod 2.5 --adapter llvm --backend gl -v \
+         --height-range -5,7.5 --albedo c.png --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --light-angle 2.5 --adapter llvm --backend gl -v \
          --mesh torus --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -62,6 +62,9 @@ fn values_arrive() {
         SceneOverrides {
             height: Some("h.png".into()),
             height_range: Some([-5.0, 7.5]),
+            text: None,
+            font: None,
+            albedo: Some("c.png".into()),
             field: Some(FieldSize::Width(31)),
             depth_metres: Some(0.25),
             technique: Some(Technique::Pom),
@@ -75,12 +78,15 @@ fn values_arrive() {
             seed: Some(u64::MAX),
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
-            light_half_angle_degrees: Some(2.5),
             mesh: Some(MeshSource::Shape(Shape::Torus)),
             shell: true,
             displaced_depth: true,
+            light_half_angle_degrees: Some(2.5),
         }
     );
+    let overrides = capture("--text Two\\nlines --font f.ttf").common.overrides();
+    assert_eq!((overrides.text.as_deref(), overrides.font), (Some("Two\nlines"), Some("f.ttf".into())));
+    assert_eq!(capture("--text -a").common.overrides().text.as_deref(), Some("-a"));
     assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));
     assert_eq!(options.channels(), [Channel::Color, Channel::Height, Channel::Lod]);
     assert_eq!(Command::Capture(options).verbosity(), Verbosity::Verbose);
@@ -155,9 +161,10 @@ fn nonsense_is_refused_in_one_sentence() {
         ("depth", "0 -1 nan inf x 1e9"),
         ("camera", "1,2,3 1,2,3,1,2,3 nan,0,0,1,1,1 inf,0,0,1,1,1 1,2,3,4,5,6,7 a,b,c,d,e,f 1e12,0,0,0,0,0"),
         ("gain", "0 -1 nan inf x 1e9"),
+        ("level-cap", "-1 1.5 32 x"),
         ("fov", "0 -45 180 nan inf x"),
-        ("light-angle", "0 -1 16 nan inf x"),
         ("lod", "-1 17 nan on x"),
+        ("light-angle", "0 -1 16 nan inf x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),
@@ -195,7 +202,7 @@ fn compare(line: &str) -> CompareOptions {
 #[test]
 fn a_comparison_compares_everything_unless_told() {
     let options = compare("");
-    assert_eq!((options.frames, options.warmup, options.gain, options.truth), (15, 0, 1.0, Truth::Exact));
+    assert_eq!((options.frames, options.warmup, options.common.display.gain(), options.truth), (15, 0, 1.0, Truth::Exact));
     assert_eq!(options.techniques(), Technique::ALL);
     assert_eq!(options.shadows(Shadow::PomSoft), [Shadow::PomSoft]);
     assert_eq!(
@@ -217,7 +224,7 @@ fn a_comparison_takes_lists() {
     assert_eq!(options.view_from[1], CameraPlacement { eye: [-1.0, 0.5, 0.0], target: [0.0; 3] });
     assert_eq!((options.truth, options.truth_shadow), (Truth::Reference, Some(Shadow::None)));
     assert_eq!(options.sweep_samples(), [4, 16]);
-    assert_eq!((options.gain, options.frames, options.warmup), (2.5, 3, 9));
+    assert_eq!((options.common.display.gain(), options.frames, options.warmup), (2.5, 3, 9));
     assert_eq!(compare("--sweep-fields 512,64").sweep_fields(), [64, 512]);
 }
 

@@ -234,10 +234,6 @@ pub(super) fn light_angle(text: &str) -> Result<f32, String> {
     number_within(text, scene::LIGHT_HALF_ANGLE_DEGREES).map(|number| number as f32)
 }
 
-pub(super) fn gain(text: &str) -> Result<f64, String> {
-    number_within(text, scene::Range::above(0.0, 1e6, ""))
-}
-
 pub(super) fn dt(text: &str) -> Result<f64, String> {
     // An hour a frame: beyond it a simulation that keeps its own step would seem to hang.
     number_within(text, scene::Range::above(0.0, 3600.0, "seconds"))
@@ -251,6 +247,12 @@ pub(super) fn height_range(text: &str) -> Result<[f32; 2], String> {
         Some(_) => Err("the first number must be less than the second".to_owned()),
         None => Err("it must be two numbers, like 0,1000".to_owned()),
     }
+}
+
+/// The words of a sign. A shell's quotes keep `\n` as two characters: here it ends a line, as in a scene.
+pub(super) fn sign(text: &str) -> Result<String, String> {
+    let text = text.replace("\\n", "\n");
+    scene::check_text(&text).map(|()| text)
 }
 
 pub(super) fn camera(text: &str) -> Result<CameraPlacement, String> {

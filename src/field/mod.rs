@@ -31,6 +31,7 @@ use wgpu::{TextureFormat, TextureUsages};
 
 use crate::gpu::{Contract, Gpu, Role, Texture};
 use crate::scene::Addressing;
+use crate::surface::albedo_image::{self, AlbedoMap, ColourImage};
 
 pub use dirty::Dirty;
 pub use region::Region;
@@ -109,6 +110,8 @@ pub struct Field {
     pub normal: Texture<Normal>,
     /// Its bounds.
     pub pyramid: Texture<Pyramid>,
+    /// The picture over it; one white texel where there is none. Outside of the table: its size is its own.
+    pub albedo_map: Texture<AlbedoMap>,
     /// How many texels composition clamped, a count for each tile of [`compose::TILE`]² texels.
     pub clipped: wgpu::Buffer,
 }
@@ -127,6 +130,7 @@ impl Field {
             height: Texture::new(gpu, size),
             normal: Texture::new(gpu, size),
             pyramid: Texture::new(gpu, size),
+            albedo_map: albedo_image::upload(gpu, &ColourImage::white()),
             clipped: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("clipped"),
                 size: u64::from(size[0].div_ceil(compose::TILE)) * u64::from(size[1].div_ceil(compose::TILE)) * 4,
@@ -145,6 +149,7 @@ impl Field {
             + self.height.memory_bytes()
             + self.normal.memory_bytes()
             + self.pyramid.memory_bytes()
+            + self.albedo_map.memory_bytes()
             + self.clipped.size()
     }
 }

@@ -89,16 +89,21 @@ impl<R: Role> Texture<R> {
 
     /// Overwrites the finest level; `texels` holds `width · height` texels, row by row.
     pub fn write<T: bytemuck::Pod>(&self, gpu: &Gpu, texels: &[T]) {
-        let [width, height] = self.size();
+        self.write_level(gpu, 0, texels);
+    }
+
+    /// Overwrites one level; `texels` holds as many as it has, row by row.
+    pub fn write_level<T: bytemuck::Pod>(&self, gpu: &Gpu, level: u32, texels: &[T]) {
+        let [width, height] = self.size().map(|side| (side >> level).max(1));
         gpu.queue.write_texture(
-            self.texture.as_image_copy(),
+            wgpu::TexelCopyTextureInfo { mip_level: level, ..self.texture.as_image_copy() },
             bytemuck::cast_slice(texels),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(width * R::CONTRACT.texel_bytes()),
                 rows_per_image: Some(height),
             },
-            self.texture.size(),
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
     }
 

@@ -67,20 +67,8 @@ impl HeightImage {
     /// it is mapped.
     pub fn read(path: &Path, range: Option<[f32; 2]>) -> Result<Self, ImageError> {
         let unfit = |problem: String| ImageError::Unfit { path: path.to_owned(), problem };
-        let unreadable = |cause| ImageError::Unreadable { path: path.to_owned(), cause };
-        let metadata = std::fs::metadata(path).map_err(unreadable)?;
-        if metadata.is_dir() {
-            return Err(unreadable(ErrorKind::IsADirectory.into()));
-        }
-        if !metadata.is_file() {
-            return Err(unfit("is not a regular file: save the image to one first".to_owned()));
-        }
-        let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
-        let mut signature = Vec::new();
-        file.by_ref().take(8).read_to_end(&mut signature).map_err(unreadable)?;
-        file.rewind().map_err(unreadable)?;
+        let (file, signature) = open(path, "a PNG or an OpenEXR image")?;
         let raw = match signature.as_slice() {
-            [] => Err("is empty: it must be a PNG or an OpenEXR image".to_owned()),
             b"\x89PNG\r\n\x1a\n" => read_png(file),
             [0x76, 0x2f, 0x31, 0x01, ..] => read_exr(file),
             start if b"\x89PNG\r\n\x1a\n".starts_with(start) => Err(damaged("PNG", "it ends within the signature")),
@@ -138,8 +126,29 @@ impl HeightImage {
     }
 }
 
+/// Opens an image and reads its first eight bytes, or as many as it has. `kinds` says in words what it must be.
+pub(super) fn open(path: &Path, kinds: &str) -> Result<(BufReader<File>, Vec<u8>), ImageError> {
+    let unfit = |problem: String| ImageError::Unfit { path: path.to_owned(), problem };
+    let unreadable = |cause| ImageError::Unreadable { path: path.to_owned(), cause };
+    let metadata = std::fs::metadata(path).map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(unreadable(ErrorKind::IsADirectory.into()));
+    }
+    if !metadata.is_file() {
+        return Err(unfit("is not a regular file: save the image to one first".to_owned()));
+    }
+    let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
+    let mut signature = Vec::new();
+    file.by_ref().take(8).read_to_end(&mut signature).map_err(unreadable)?;
+    file.rewind().map_err(unreadable)?;
+    if signature.is_empty() {
+        return Err(unfit(format!("is empty: it must be {kinds}")));
+    }
+    Ok((file, signature))
+}
+
 /// Refuses a size of nothing, and one that could not be held.
-fn check_size(width: u64, height: u64) -> Result<[u32; 2], String> {
+pub(super) fn check_size(width: u64, height: u64) -> Result<[u32; 2], String> {
     if width == 0 || height == 0 {
         return Err(format!("says that it is {width}x{height} pixels: it is damaged, save it anew"));
     }
@@ -149,14 +158,14 @@ fn check_size(width: u64, height: u64) -> Result<[u32; 2], String> {
     }
 }
 
-fn damaged(kind: &str, detail: &str) -> String {
+pub(super) fn damaged(kind: &str, detail: &str) -> String {
     // A decoder's words may span lines; a sentence does not.
     let detail = detail.split_whitespace().collect::<Vec<_>>().join(" ");
     format!("is a truncated or damaged {kind} image ({detail}): save it anew")
 }
 
 /// What a file seems to be, by its first bytes.
-fn kind_of(start: &[u8]) -> &'static str {
+pub(super) fn kind_of(start: &[u8]) -> &'static str {
     match start {
         [0xff, 0xd8, 0xff, ..] => "a JPEG image",
         [b'G', b'I', b'F', b'8', ..] => "a GIF image",

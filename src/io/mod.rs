@@ -1,7 +1,9 @@
-//! Files: height images, meshes and scenes in; pictures, channels and the manifest out.
+//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out.
 
 pub mod atomic;
+pub mod colour_image;
 pub mod exr_file;
+pub mod font;
 pub mod height_image;
 pub mod manifest;
 pub mod mesh_file;

@@ -3,21 +3,30 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::colour_image;
+use super::font::{self, FontError};
 use super::height_image::{self, HeightImage, ImageError};
 use super::mesh_file::{self, MeshError};
+use crate::field::base::{self, Lettering};
 use crate::mesh::{Mesh, MeshSource};
-use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, VERSION};
+use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, Text, VERSION};
 use crate::suggest;
-use crate::surface::{Shading, Shadow, Technique};
+use crate::surface::albedo_image::ColourImage;
+use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 6] = [
+pub const EMBEDDED: [(&str, &str); 11] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
     ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
     ("fur", include_str!("../../scenes/fur.toml")),
     ("grass", include_str!("../../scenes/grass.toml")),
+    ("text", include_str!("../../scenes/text.toml")),
+    ("terrain", include_str!("../../scenes/terrain.toml")),
+    ("depth-image", include_str!("../../scenes/depth-image.toml")),
+    ("cube", include_str!("../../scenes/cube.toml")),
+    ("planet", include_str!("../../scenes/planet.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.
@@ -48,6 +57,12 @@ pub struct SceneOverrides {
     pub height: Option<PathBuf>,
     /// The values in the image that become 0 and 1.
     pub height_range: Option<[f32; 2]>,
+    /// A text that replaces the starting height, or that of a sign.
+    pub text: Option<String>,
+    /// The font of a text.
+    pub font: Option<PathBuf>,
+    /// An image whose colours lie over the field.
+    pub albedo: Option<PathBuf>,
     /// The field's size.
     pub field: Option<FieldSize>,
     /// Depth of h = 0, metres.
@@ -84,7 +99,7 @@ pub struct SceneOverrides {
     pub light_half_angle_degrees: Option<f32>,
 }
 
-/// A scene that is ready to run: checked, its image read.
+/// A scene that is ready to run: checked, its images and its font read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedScene {
     /// The scene, with the field's size as it will be.
@@ -92,9 +107,29 @@ pub struct LoadedScene {
     /// The mesh that carries the relief; none: the plane.
     pub mesh: Option<Mesh>,
     image: Option<HeightImage>,
+    lettering: Option<Lettering>,
+    colours: Option<ColourImage>,
 }
 
 impl LoadedScene {
+    /// The heights that the field starts from, and the colours that lie over it, if there are any: an image's, or what the base
+    /// brings. Makes as many heights as the field has texels: check its size against the adapter's limits first.
+    pub fn layers(&self) -> (Vec<f32>, Option<ColourImage>) {
+        let (heights, colours) = match (&self.scene.base, &self.lettering, self.image_heights()) {
+            (_, _, Some(image)) => (image.heights, None),
+            (Base::Text(text), Some(lettering), _) => {
+                (base::text::heights(text, lettering, self.scene.field.size, self.scene.texel_metres()), None)
+            }
+            (Base::StillLife {}, ..) => {
+                let (heights, colours) = base::still_life::photograph(self.scene.field.size);
+                (heights, Some(colours))
+            }
+            // Only an image and a text have no heights of their own.
+            _ => (base::heights(&self.scene).unwrap_or_default(), None),
+        };
+        (heights, self.colours.clone().or(colours))
+    }
+
     /// The image's heights at the field's size, if the scene starts from an image.
     ///
     /// Resampling allocates what the field's size says: check that against the adapter's limits first.
@@ -138,6 +173,12 @@ pub enum SceneFileError {
     /// Its image is unfit.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// Its font is unfit.
+    #[error(transparent)]
+    Font(#[from] FontError),
+    /// There is no text that a font could set.
+    #[error("--font sets a text, and this scene has none: write one with --text")]
+    FontWithoutText,
     /// Its mesh is unfit.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -179,6 +220,11 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
         Base::Image { path, range } => Some(HeightImage::read(path, *range)?),
         _ => None,
     };
+    let lettering = match &scene.base {
+        Base::Text(text) => Some(font::lettering(&text.text, text.font.as_deref())?),
+        _ => None,
+    };
+    let colours = scene.material.image.as_deref().map(colour_image::read).transpose()?;
     let own_size = image.as_ref().filter(|_| overrides.height.is_some() || !given.field_size).map(|image| image.size);
     scene.field.size = match (overrides.field, own_size) {
         (Some(size), _) => field_size(size, image.as_ref().map(|image| image.size)),
@@ -193,7 +239,7 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
         Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
         None => None,
     };
-    Ok(LoadedScene { scene, mesh, image })
+    Ok(LoadedScene { scene, mesh, image, lettering, colours })
 }
 
 fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
@@ -210,7 +256,7 @@ struct Given {
     camera: bool,
 }
 
-/// Reads a scene from a file. A relative path to an image is relative to the file.
+/// Reads a scene from a file. A relative path to an image or a font is relative to the file.
 fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
     let unreadable = |cause| SceneFileError::Unreadable { path: path.to_owned(), cause };
     let malformed = |line, problem: String| SceneFileError::Malformed { path: path.to_owned(), line, problem };
@@ -246,11 +292,17 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
     if scene.name.is_empty() {
         scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     }
-    if let Base::Image { path: image, .. } = &mut scene.base
-        && !image.as_os_str().is_empty()
-    {
-        *image = path.parent().unwrap_or(Path::new("")).join(&image);
+    let beside_scene = |file: &mut PathBuf| {
+        if !file.as_os_str().is_empty() {
+            *file = path.parent().unwrap_or(Path::new("")).join(&file);
+        }
+    };
+    match &mut scene.base {
+        Base::Image { path, .. } => beside_scene(path),
+        Base::Text(text) => text.font.iter_mut().for_each(beside_scene),
+        _ => {}
     }
+    scene.material.image.iter_mut().for_each(beside_scene);
     if let Some(mesh) = &mut scene.mesh {
         mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
     }
@@ -282,6 +334,22 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
             Base::Image { range, .. } => *range = overrides.height_range,
             _ => return Err(SceneFileError::RangeWithoutImage),
         }
+    }
+    if let Some(words) = &overrides.text {
+        match &mut scene.base {
+            Base::Text(text) => text.text.clone_from(words),
+            base => *base = Base::Text(Text { text: words.clone(), ..Text::default() }),
+        }
+    }
+    if let Some(font) = &overrides.font {
+        match &mut scene.base {
+            Base::Text(text) => text.font = Some(font.clone()),
+            _ => return Err(SceneFileError::FontWithoutText),
+        }
+    }
+    if let Some(path) = &overrides.albedo {
+        scene.material.albedo = Albedo::Image;
+        scene.material.image = Some(path.clone());
     }
     if let Some(depth) = overrides.depth_metres {
         scene.plane.depth_metres = depth;

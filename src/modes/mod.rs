@@ -10,7 +10,6 @@ pub mod statistics;
 pub mod stress;
 
 use crate::cli::CommonOptions;
-use crate::field::base;
 use crate::frame::{FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
@@ -72,12 +71,8 @@ pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError>
 
 /// What a frame starts from. Makes as many heights as the field has texels: check the size against the adapter first.
 pub fn start(loaded: &LoadedScene) -> Start {
-    let heights = match loaded.image_heights() {
-        Some(image) => image.heights,
-        // Only an image has no heights of its own.
-        None => base::heights(&loaded.scene).unwrap_or_default(),
-    };
-    Start::new(&loaded.scene, heights, loaded.mesh.clone())
+    let (heights, colours) = loaded.layers();
+    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours)
 }
 
 /// Waits for bytes on their way from the GPU.

@@ -31,8 +31,13 @@ impl Scene {
         }
         let target = DVec3::from(camera.target);
         let from_target = DVec3::from(camera.eye) - target;
+        // Balls round what there is to see: the plane's corners, or a mesh whose size is known.
         let [x, z] = self.plane_size_metres().map(|extent| extent / 2.0);
         let corners = [DVec3::new(-x, 0.0, -z), DVec3::new(x, 0.0, -z), DVec3::new(-x, 0.0, z), DVec3::new(x, 0.0, z)];
+        let balls = match self.mesh.as_ref().and_then(|mesh| mesh.radius_metres) {
+            Some(radius) => vec![(DVec3::ZERO, f64::from(radius))],
+            None => corners.map(|corner| (corner, 0.0)).to_vec(),
+        };
         let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan() * MARGIN;
         let half = [half_height * aspect, half_height];
 
@@ -40,7 +45,9 @@ impl Scene {
         let sides = if camera.orbit_degrees_per_second == 0.0 { 1 } else { 72 };
         let distance = (0..sides)
             .map(|side| DQuat::from_rotation_y(f64::from(side) * std::f64::consts::TAU / f64::from(sides)) * from_target)
-            .flat_map(|away| corners.map(|corner| distance_to_see(corner - target, away.normalize(), half)))
+            .flat_map(|away| {
+                balls.iter().map(move |(middle, radius)| distance_to_see(*middle - target, *radius, away.normalize(), half))
+            })
             .fold(from_target.length(), f64::max);
         if distance <= from_target.length() {
             return camera.clone();
@@ -49,14 +56,16 @@ impl Scene {
     }
 }
 
-/// The least distance from the target, along `away`, from which `point` (relative to the target) is within the picture.
-fn distance_to_see(point: DVec3, away: DVec3, half: [f64; 2]) -> f64 {
+/// The least distance from the target, along `away`, from which a ball about `point` (relative to the target) is within the picture.
+fn distance_to_see(point: DVec3, radius: f64, away: DVec3, half: [f64; 2]) -> f64 {
     // Straight down or up the picture's upper edge is the far side of the plane, as for every camera of this program.
     let up = if away.y.abs() > 1.0 - 1e-9 { DVec3::NEG_Z } else { DVec3::Y };
     let right = up.cross(away).normalize();
     let above = away.cross(right);
     // The point's depth is the eye's distance less its own share along `away`: |offset| ≤ half · depth on both axes.
-    let needed = [point.dot(right).abs() / half[0], point.dot(above).abs() / half[1]];
+    // A ball keeps its radius from the picture's four sides, planes through the eye: over the sine of their angle to the axis.
+    let needed = [(right, half[0]), (above, half[1])]
+        .map(|(axis, half)| (point.dot(axis).abs() + radius * (1.0 + half * half).sqrt()) / half);
     point.dot(away) + needed[0].max(needed[1])
 }
 
@@ -100,6 +109,29 @@ mod tests {
         let mut scene = Scene::default();
         scene.camera.eye = [0.0, 5.0, 5.0];
         assert_eq!(scene.framing(1.5), scene.camera);
+    }
+
+    #[test]
+    fn a_ball_is_seen_whole() {
+        for (aspect, fov) in [(0.4, 45.0), (1.6, 45.0), (1.0, 100.0), (3.0, 20.0)] {
+            let mesh = crate::scene::Mesh { radius_metres: Some(0.7), ..Default::default() };
+            let mut scene = Scene { mesh: Some(mesh), ..Scene::default() };
+            scene.camera.vertical_fov_degrees = fov;
+            scene.camera.eye = [0.1, 0.5, 0.5];
+            scene.camera.target = [0.1, 0.05, 0.0];
+            let camera = scene.framing(aspect);
+            let view = look_at_mat4(camera.eye.into(), camera.target.into(), DVec3::Y);
+            let tangent = (fov.to_radians() / 2.0).tan();
+            let reach = (0..4000)
+                .map(|i| {
+                    let (z, turn) = (2.0 * (f64::from(i) + 0.5) / 4000.0 - 1.0, 2.399_963 * f64::from(i));
+                    let across = (1.0 - z * z).sqrt();
+                    let p = view.transform_point3(0.7 * DVec3::new(across * turn.cos(), z, across * turn.sin()));
+                    (p.x / -p.z / tangent / aspect).abs().max((p.y / -p.z / tangent).abs())
+                })
+                .fold(0.0, f64::max);
+            assert!(reach <= MARGIN + 1e-9 && reach > 0.9, "{aspect} {fov}: {reach}");
+        }
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use std::fmt;
 
+use crate::surface::Albedo;
 use crate::surface::view::BALLS_MAX;
 
 use super::{
-    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Trace,
-    VERSION, Wave,
+    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace,
+    VERSION, Wave, check_text,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -116,7 +117,7 @@ impl Scene {
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
-        validate_material(&self.material)?;
+        validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
         self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
         validate_balls(&self.balls)?;
         validate_camera(&self.camera)
@@ -153,12 +154,30 @@ fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
         Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
+        Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
+        Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
         Base::Image { range: Some([low, high]), .. } if !(low < high && (high - low).is_finite()) => {
             refuse("base.range", format!("[{low}, {high}]"), "two finite numbers, the first less than the second")
         }
         Base::Image { .. } => Ok(()),
     }
+}
+
+fn validate_text(text: &Text) -> Result<(), SceneError> {
+    if let Err(problem) = check_text(&text.text) {
+        return refuse("base.text", format!("{:?}", text.text), format!("another: {problem}"));
+    }
+    if text.font.as_ref().is_some_and(|font| font.as_os_str().is_empty()) {
+        return refuse("base.font", "empty", "the path of a TTF or OTF font, or left out");
+    }
+    number("base.size", text.size, Range::above(0.0, 1.0, ""))?;
+    // Wider than any stroke; what is wider still would be no letter.
+    number("base.weight", text.weight, Range::from_to(-0.2, 0.2, "em"))?;
+    number("base.bevel", text.bevel, Range::from_to(0.0, 1.0, "em"))?;
+    // Three of them on either side leave room for the text.
+    number("base.frame", text.frame, Range::from_to(0.0, 0.1, "of the shorter side"))?;
+    number("base.grain", text.grain, Range::from_to(0.0, 1.0, "of the depth"))
 }
 
 fn validate_mesh(mesh: &Mesh) -> Result<(), SceneError> {
@@ -278,7 +297,20 @@ fn validate_directional(key: &str, light: &DirectionalLight) -> Result<(), Scene
     number(key("turn_degrees_per_second"), light.turn_degrees_per_second, turn)
 }
 
-fn validate_material(material: &Material) -> Result<(), SceneError> {
+fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), SceneError> {
+    match &material.image {
+        Some(path) if path.as_os_str().is_empty() => {
+            return refuse("material.image", "empty", "the path of a PNG file, or left out");
+        }
+        None if material.albedo == Albedo::Image && !base_has_colours => {
+            return refuse(
+                "material.albedo",
+                "image",
+                "another, or `material.image` the path of a PNG file (--albedo names one)",
+            );
+        }
+        _ => {}
+    }
     numbers("material.tint", &material.tint, Range::from_to(0.0, 10.0, ""))?;
     let share = Range::from_to(0.0, 1.0, "");
     number("material.specular", material.specular, share)?;

@@ -101,12 +101,20 @@ choices! {
         Plain = "plain", "albedo_plain", "Plain";
         /// Bricks in running bond.
         Brick = "brick", "albedo_brick", "Brick";
+        /// Cast bronze, rubbed bright where it stands out.
+        Bronze = "bronze", "albedo_bronze", "Bronze";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
         /// A leopard's coat, dark toward the roots.
         Fur = "fur", "albedo_fur", "Fur";
         /// A lawn with daisies, dark toward the roots.
         Grass = "grass", "albedo_grass", "Grass";
+        /// A picture.
+        Image = "image", "albedo_image", "Image";
+        /// Rock, dust and ice of a planet without air.
+        Planet = "planet", "albedo_planet", "Planet";
+        /// Grass, forest, rock and snow, by height and slope.
+        Terrain = "terrain", "albedo_terrain", "Terrain";
         /// Clear water over a floor.
         Water = "water", "albedo_water", "Water";
         /// Clear glass over a table.
@@ -135,6 +143,9 @@ pub enum Shows {
     Level = 6,
     /// How far the point that the technique found lies from the one of the exact traversal, as heat.
     Error = 7,
+    /// The picture, where the traversal ends at a chosen level of the pyramid and takes its bounds for the surface, as boxes
+    /// (\[PDM\] fig. 18).
+    LevelCap = 8,
     /// The mip level of the pixel, as heat.
     MipLevel = 16,
     /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
@@ -151,9 +162,10 @@ impl Shows {
         Self::Visibility,
         Self::Steps,
         Self::Level,
-        Self::Error,
+        Self::LevelCap,
         Self::MipLevel,
         Self::LodTint,
+        Self::Error,
     ];
 
     /// Its name on the command line.
@@ -166,10 +178,16 @@ impl Shows {
             Self::Visibility => "visibility",
             Self::Steps => "steps",
             Self::Level => "pyramid-level",
+            Self::LevelCap => "level-cap",
             Self::Error => "error",
             Self::MipLevel => "mip-level",
             Self::LodTint => "lod-tint",
         }
+    }
+
+    /// Whether it is a picture, which is tone-mapped: numbers are shown as they are.
+    pub const fn is_picture(self) -> bool {
+        matches!(self, Self::Picture | Self::LevelCap | Self::LodTint)
     }
 
     /// What the brightest heat of the view stands for, where it has one; `gain` is that of the view of errors.
@@ -178,7 +196,9 @@ impl Shows {
             Self::Steps => Some(Self::STEPS_TOP as f32),
             Self::Level | Self::MipLevel => Some(Self::LEVELS_TOP as f32),
             Self::Error => Some(1.0 / gain),
-            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LodTint => None,
+            Self::Picture | Self::Height | Self::Normal | Self::Visibility | Self::UvOffset | Self::LevelCap | Self::LodTint => {
+                None
+            }
         }
     }
 
@@ -190,7 +210,7 @@ impl Shows {
             Self::Error => "texels",
             Self::Height => "of the depth",
             Self::Visibility => "of the light",
-            Self::Picture | Self::Normal | Self::UvOffset | Self::LodTint => "",
+            Self::Picture | Self::Normal | Self::UvOffset | Self::LevelCap | Self::LodTint => "",
         }
     }
 
@@ -215,6 +235,7 @@ impl Shows {
             Self::Visibility => "Visibility of the light",
             Self::Steps => "Steps a pixel",
             Self::Level => "Level of the pyramid",
+            Self::LevelCap => "Cap of the level",
             Self::Error => "Error against exact",
             Self::MipLevel => "Mip level",
             Self::LodTint => "Level of detail in blue",

@@ -11,6 +11,8 @@ pub struct Display {
     pub shows: Shows,
     /// Gain of the view of errors: the brightest heat is an error of 1 / gain texels.
     pub gain: f32,
+    /// The level of the view that ends the traversal at one.
+    pub level_cap: u32,
     /// What is on the right of a divider, if there is one.
     pub split: Option<Split>,
 }
@@ -44,6 +46,9 @@ impl Display {
     /// The gain where none is asked for.
     pub const GAIN: f32 = 1.0;
 
+    /// The level where none is asked for: boxes of eight cells a side.
+    pub const LEVEL_CAP: u32 = 3;
+
     /// The first column of traced pixels on the right of the divider, in a picture so many pixels wide that each stand for
     /// `supersampling` of them; both sides keep at least one.
     pub fn divider(&self, width: u32, supersampling: u32) -> Option<u32> {
@@ -55,7 +60,7 @@ impl Display {
 
 impl Default for Display {
     fn default() -> Self {
-        Self { shows: Shows::Picture, gain: Self::GAIN, split: None }
+        Self { shows: Shows::Picture, gain: Self::GAIN, level_cap: Self::LEVEL_CAP, split: None }
     }
 }
 

@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::{Vec2, Vec3};
 
 use super::raster::{RasterVertex, raster_vertices};
+use super::shell;
 use crate::gpu::Gpu;
 use crate::mesh::Vertex;
 use crate::scene::Addressing;
@@ -24,7 +25,7 @@ pub struct MicroVertex {
     pub metres_per_uv: [f32; 2],
     /// Unit normal, and the sign of the bitangent, as snorm16.
     pub normal: [i16; 4],
-    /// Unit tangent as snorm16.
+    /// Unit tangent, and 1 at the foot of a wall, as snorm16.
     pub tangent: [i16; 4],
 }
 
@@ -34,7 +35,6 @@ impl MicroVertex {
         wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x2, 2 => Float32x3, 3 => Float32x2, 4 => Snorm16x4, 5 => Snorm16x4];
 
     fn new(position: Vec3, uv: Vec2, inward: Vec3, metres_per_uv: Vec2, normal: Vec3, tangent: Vec3, sign: f32) -> Self {
-        #[expect(clippy::cast_possible_truncation, reason = "that is the format")]
         let snorm = |value: f32| (value.clamp(-1.0, 1.0) * 32767.0).round() as i16;
         let [normal, tangent] = [normal, tangent].map(Vec3::normalize_or_zero);
         Self {
@@ -50,7 +50,6 @@ impl MicroVertex {
 
 /// Into how many pieces each edge is cut, so that `base` triangles become about so many.
 pub fn pieces(triangles: u32, base: usize) -> u32 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a root of a u32")]
     let pieces = (f64::from(triangles) / base.max(1) as f64).sqrt().round() as u32;
     pieces.max(1)
 }
@@ -104,6 +103,53 @@ fn blend(triangle: [&RasterVertex; 3], weights: [f32; 3]) -> MicroVertex {
     )
 }
 
+/// Which edges of each triangle are borders of the mesh: the first from its first corner to its second.
+pub fn borders(vertices: &[Vertex], indices: &[u32]) -> Vec<[bool; 3]> {
+    let of = |(corners, triangle): (&[u32], shell::ShellTriangle)| {
+        let [a, b, c] = triangle.vertices;
+        [0, 1, 2].map(|i| {
+            let edge = [corners[i], corners[(i + 1) % 3]];
+            let is = |bit, other: [u32; 2]| triangle.borders & bit != 0 && edge.iter().all(|end| other.contains(end));
+            is(1, [a, b]) || is(2, [b, c]) || is(4, [a, c])
+        })
+    };
+    indices.chunks_exact(3).zip(shell::triangles(vertices, indices)).map(of).collect()
+}
+
+/// The vertices of walls over borders: for each border `pieces` + 1 pairs, on top and at the foot.
+pub fn wall_vertices(vertices: &[Vertex], indices: &[u32], borders: &[[bool; 3]], pieces: u32) -> Vec<MicroVertex> {
+    let corners = raster_vertices(vertices, indices);
+    let mut result = Vec::new();
+    for (triangle, borders) in indices.chunks_exact(3).zip(borders) {
+        let triangle: [&RasterVertex; 3] = [0, 1, 2].map(|i| &corners[triangle[i] as usize]);
+        for i in (0..3).filter(|&i| borders[i]) {
+            let [a, b] = [triangle[i], triangle[(i + 1) % 3]];
+            let along = Vec3::from(b.position) - Vec3::from(a.position);
+            for place in 0..=pieces {
+                let mut weights = [0.0; 3];
+                (weights[i], weights[(i + 1) % 3]) = ((pieces - place) as f32 / pieces as f32, place as f32 / pieces as f32);
+                let top = blend(triangle, weights);
+                let outward = along.cross(-Vec3::from(top.inward));
+                let [position, inward] = [top.position, top.inward].map(Vec3::from);
+                let top = MicroVertex::new(position, top.uv.into(), inward, top.metres_per_uv.into(), outward, along, 1.0);
+                let mut foot = top;
+                foot.tangent[3] = i16::MAX;
+                result.extend([top, foot]);
+            }
+        }
+    }
+    result
+}
+
+/// The indices of so many walls whose vertices begin at `first`: two triangles for each of `pieces` pieces.
+pub fn wall_indices(first: u32, walls: u32, pieces: u32) -> Vec<u32> {
+    let quad = move |wall: u32, place: u32| {
+        let top = first + 2 * (wall * (pieces + 1) + place);
+        [top, top + 1, top + 2, top + 2, top + 1, top + 3]
+    };
+    (0..walls).flat_map(|wall| (0..pieces).flat_map(move |place| quad(wall, place))).collect()
+}
+
 /// The indices of so many triangles, each cut into `pieces`² alike.
 pub fn indices(base: u32, pieces: u32) -> Vec<u32> {
     let count = (pieces + 1) * (pieces + 2) / 2;
@@ -139,7 +185,6 @@ pub fn bare_plane(size_metres: [f32; 2], addressing: Addressing, pieces: u32) ->
         MicroVertex::new(position, Vec2::new(u, v), Vec3::NEG_Y, size, Vec3::Y, Vec3::X, -1.0)
     };
     let vertices = lines.iter().flat_map(|&v| lines.iter().map(move |&u| vertex(u, v))).collect();
-    #[expect(clippy::cast_possible_truncation, reason = "a root of the number of triangles, which is checked")]
     let width = lines.len() as u32;
     let quad = |corner: u32| [corner, corner + width, corner + 1, corner + 1, corner + width, corner + width + 1];
     let indices = (0..width - 1).flat_map(|j| (0..width - 1).flat_map(move |i| quad(j * width + i))).collect();
@@ -152,7 +197,11 @@ pub struct Micropolygons {
     pieces: u32,
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
+    /// Those of the surface; the walls' come after them.
     triangles: u32,
+    borders: Vec<[bool; 3]>,
+    /// How many walls stand over the triangles before each.
+    walls_before: Vec<u32>,
 }
 
 impl Micropolygons {
@@ -160,11 +209,20 @@ impl Micropolygons {
     pub fn new(gpu: &Gpu, plan: Plan, mesh: (&[Vertex], &[u32])) -> Self {
         let base = if plan.bare_plane.is_some() { 2 } else { mesh.1.len() / 3 };
         let pieces = pieces(plan.triangles, base);
-        #[expect(clippy::cast_possible_truncation, reason = "a mesh has fewer than four billion triangles")]
-        let (own_vertices, own_indices) = match plan.bare_plane {
+        let borders = if plan.bare_plane.is_some() { Vec::new() } else { borders(mesh.0, mesh.1) };
+        let mut walls_before = vec![0];
+        for edges in &borders {
+            let walls = edges.iter().filter(|&&edge| edge).count() as u32;
+            walls_before.push(walls_before.last().map_or(0, |before| before + walls));
+        }
+        let (mut own_vertices, mut own_indices) = match plan.bare_plane {
             Some((size, addressing)) => bare_plane(size, addressing, pieces),
             None => (vertices(mesh.0, mesh.1, pieces), indices(base as u32, pieces)),
         };
+        let triangles = (own_indices.len() / 3) as u32;
+        let walls = walls_before.last().copied().unwrap_or_default();
+        own_indices.extend(wall_indices(own_vertices.len() as u32, walls, pieces));
+        own_vertices.extend(wall_vertices(mesh.0, mesh.1, &borders, pieces));
         let buffer = |label, contents: &[u8], usage| {
             let size = contents.len().max(16) as u64;
             let usage = usage | wgpu::BufferUsages::COPY_DST;
@@ -173,14 +231,14 @@ impl Micropolygons {
             gpu.queue.write_buffer(&buffer, 0, contents);
             buffer
         };
-        #[expect(clippy::cast_possible_truncation, reason = "a buffer of four billion does not fit")]
-        let triangles = (own_indices.len() / 3) as u32;
         Self {
             plan,
             pieces,
             vertices: buffer("micropolygon vertices", bytemuck::cast_slice(&own_vertices), wgpu::BufferUsages::VERTEX),
             indices: buffer("micropolygon indices", bytemuck::cast_slice(&own_indices), wgpu::BufferUsages::INDEX),
             triangles,
+            borders,
+            walls_before,
         }
     }
 
@@ -191,7 +249,9 @@ impl Micropolygons {
 
     /// Moves the mesh's vertices, of which there are as many as before.
     pub fn pose(&self, gpu: &Gpu, mesh: (&[Vertex], &[u32])) {
-        gpu.queue.write_buffer(&self.vertices, 0, bytemuck::cast_slice(&vertices(mesh.0, mesh.1, self.pieces)));
+        let mut own = vertices(mesh.0, mesh.1, self.pieces);
+        own.extend(wall_vertices(mesh.0, mesh.1, &self.borders, self.pieces));
+        gpu.queue.write_buffer(&self.vertices, 0, bytemuck::cast_slice(&own));
     }
 
     /// The micropolygons of some of the mesh's triangles; of the plane alone, all.
@@ -200,7 +260,14 @@ impl Micropolygons {
         if self.plan.bare_plane.is_some() { 0..self.triangles } else { base.start * each..base.end * each }
     }
 
-    /// How many there are.
+    /// Those of the walls over the borders of some of the mesh's triangles.
+    pub fn walls_of(&self, base: &Range<u32>) -> Range<u32> {
+        let before = |triangle: u32| self.walls_before.get(triangle as usize).copied().unwrap_or_default();
+        let first = |triangle: u32| self.triangles + 2 * self.pieces * before(triangle);
+        first(base.start)..first(base.end)
+    }
+
+    /// How many there are, walls apart.
     pub fn triangle_count(&self) -> u32 {
         self.triangles
     }

@@ -1,5 +1,6 @@
 //! How the field is seen: techniques, shadows, shading.
 
+pub mod albedo_image;
 pub mod channels;
 pub mod choice;
 pub mod display;
@@ -43,6 +44,8 @@ pub struct Choice {
     /// Whether the exact traversal runs beside the technique: what the view of errors shows. A part of its own, since an
     /// adapter that runs both sides of every branch would pay for it in every picture.
     pub with_truth: bool,
+    /// Whether the traversal ends at a level of the pyramid, in place of the technique.
+    pub caps_level: bool,
 }
 
 impl Choice {
@@ -51,7 +54,7 @@ impl Choice {
 
     /// A technique and a shadow, where nobody looks at colours.
     pub const fn tracing(technique: Technique, shadow: Shadow) -> Self {
-        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false }
+        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false, caps_level: false }
     }
 
     /// A scene's.
@@ -63,7 +66,7 @@ impl Choice {
     /// The same for a view of what it traces.
     #[must_use]
     pub const fn showing(self, shows: Shows) -> Self {
-        Self { with_truth: matches!(shows, Shows::Error), ..self }
+        Self { with_truth: matches!(shows, Shows::Error), caps_level: matches!(shows, Shows::LevelCap), ..self }
     }
 }
 
@@ -71,9 +74,9 @@ impl Choice {
 /// adapter does.
 pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let Choice { technique, shadow, albedo, shading, with_truth } = choice;
+    let Choice { technique, shadow, albedo, shading, with_truth, caps_level } = choice;
     let stems = [
-        technique.stem(),
+        if caps_level { "level_cap" } else { technique.stem() },
         shadow.stem(),
         "sky",
         "balls",
@@ -116,17 +119,30 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
         ],
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
         Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
-        Albedo::Plain | Albedo::Fur | Albedo::Water | Albedo::Glass => Vec::new(),
+        Albedo::Plain
+        | Albedo::Bronze
+        | Albedo::Fur
+        | Albedo::Glass
+        | Albedo::Image
+        | Albedo::Planet
+        | Albedo::Terrain
+        | Albedo::Water => Vec::new(),
     }
 }
 
-/// Bind group layout 1 of everything that traces: the field.
+/// Bind group layout 1 of everything that traces: the field, and the image over it.
 pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
         gpu,
         "field",
         wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        &[Binding::Float(gpu.filters_r32float()), Binding::Float(false), Binding::Float(true), Binding::Uint],
+        &[
+            Binding::Float(gpu.filters_r32float()),
+            Binding::Float(false),
+            Binding::Float(true),
+            Binding::Uint,
+            Binding::Float(true),
+        ],
     )
 }
 
@@ -139,6 +155,7 @@ pub(crate) fn bind_field(gpu: &Gpu, layout: &BindingLayout, field: &field::Field
             wgpu::BindingResource::TextureView(&field.pyramid.view),
             wgpu::BindingResource::TextureView(&field.normal.view),
             wgpu::BindingResource::TextureView(&field.material.view),
+            wgpu::BindingResource::TextureView(&field.albedo_map.view),
         ],
     )
 }

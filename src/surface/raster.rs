@@ -46,6 +46,8 @@ pub enum Geometry {
     Shell,
     /// A mesh, or the plane alone, as micropolygons.
     Micropolygons,
+    /// The walls over a mesh's borders, of micropolygons.
+    Walls,
     /// The balls.
     Balls,
 }
@@ -61,8 +63,16 @@ pub enum Output {
 
 impl Geometry {
     /// Every geometry.
-    pub const ALL: [Self; 7] =
-        [Self::Backdrop, Self::Plane, Self::Facets(false), Self::Facets(true), Self::Shell, Self::Micropolygons, Self::Balls];
+    pub const ALL: [Self; 8] = [
+        Self::Backdrop,
+        Self::Plane,
+        Self::Facets(false),
+        Self::Facets(true),
+        Self::Shell,
+        Self::Micropolygons,
+        Self::Walls,
+        Self::Balls,
+    ];
 
     /// The WGSL parts with its entry points, in order, under `shaders/surface`.
     pub const fn stems(self) -> &'static [&'static str] {
@@ -71,7 +81,7 @@ impl Geometry {
             Self::Plane => &["surface", "raster", "plane"],
             Self::Facets(_) => &["raster", "facet"],
             Self::Shell => &["raster", "shell"],
-            Self::Micropolygons => &["raster", "micropolygon"],
+            Self::Micropolygons | Self::Walls => &["raster", "micropolygon"],
             Self::Balls => &["surface", "raster", "ball"],
         }
     }
@@ -81,7 +91,7 @@ impl Geometry {
             Self::Backdrop | Self::Plane | Self::Balls => "cover",
             Self::Facets(_) => "facet_vertex",
             Self::Shell => "shell_vertex",
-            Self::Micropolygons => "micropolygon_vertex",
+            Self::Micropolygons | Self::Walls => "micropolygon_vertex",
         }
     }
 
@@ -97,6 +107,8 @@ impl Geometry {
             (Self::Shell, Output::Channels(_)) => "shell_channel",
             (Self::Micropolygons, Output::Radiance) => "micropolygon",
             (Self::Micropolygons, Output::Channels(_)) => "micropolygon_channel",
+            (Self::Walls, Output::Radiance) => "micropolygon_wall",
+            (Self::Walls, Output::Channels(_)) => "micropolygon_wall_channel",
             (Self::Balls, Output::Radiance) => "ball",
             (Self::Balls, Output::Channels(_)) => "ball_channel",
         }
@@ -104,7 +116,7 @@ impl Geometry {
 
     const fn cull_mode(self) -> Option<wgpu::Face> {
         match self {
-            Self::Facets(_) | Self::Micropolygons => Some(wgpu::Face::Back),
+            Self::Facets(_) | Self::Micropolygons | Self::Walls => Some(wgpu::Face::Back),
             // The far sides of a tetrahedron are seen even when the eye is inside.
             Self::Shell => Some(wgpu::Face::Front),
             Self::Backdrop | Self::Plane | Self::Balls => None,
@@ -165,7 +177,7 @@ pub fn pipeline(
             module: &module,
             entry_point: Some(geometry.vertex_entry()),
             compilation_options: compilation_options.clone(),
-            buffers: if geometry == Geometry::Micropolygons { &micro_vertices } else { &[] },
+            buffers: if matches!(geometry, Geometry::Micropolygons | Geometry::Walls) { &micro_vertices } else { &[] },
         },
         primitive: wgpu::PrimitiveState { cull_mode: geometry.cull_mode(), ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {

@@ -107,6 +107,11 @@ impl Stage {
         (self.depth, self.size) = (depth_buffer(gpu, size), size);
     }
 
+    /// Gives back the memory of micropolygons.
+    pub fn forget_micropolygons(&mut self) {
+        self.micropolygons = None;
+    }
+
     /// Forgets every pipeline: the device's shaders have changed.
     pub fn forget_pipelines(&mut self) {
         self.pipelines.get_mut().clear();
@@ -118,7 +123,7 @@ impl Stage {
     ///
     /// A shader does not compile.
     pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene, shows: Shows, side: usize) -> Result<(), ShaderError> {
-        self.prepare_micropolygons(gpu, scene, side);
+        self.prepare_micropolygons(gpu, scene);
         // What is drawn does not depend on the camera.
         let camera = &Camera::at(&scene.camera, 0.0);
         let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, display: shows.into() }, self.size);
@@ -131,15 +136,12 @@ impl Stage {
         Ok(())
     }
 
-    /// Makes the micropolygons that a side asks for, unless they are there; the first side drops those that it does not.
-    fn prepare_micropolygons(&mut self, gpu: &Gpu, scene: &Scene, side: usize) {
+    /// Makes the micropolygons that a scene asks for, unless they are there.
+    fn prepare_micropolygons(&mut self, gpu: &Gpu, scene: &Scene) {
         let plane = || (scene.plane_size_metres().map(|metres| metres as f32), scene.field.addressing);
         let plan = Plan { triangles: scene.trace.mesh_triangles, bare_plane: self.mesh.is_none().then(plane) };
-        if scene.trace.technique != Technique::Mesh {
-            if side == 0 {
-                self.micropolygons = None;
-            }
-        } else if self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
+        let is_asked = scene.trace.technique == Technique::Mesh;
+        if is_asked && self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
             let mesh = self.mesh.as_ref().map(|body| (body.mesh.vertices.as_slice(), body.mesh.indices.as_slice()));
             self.micropolygons = Some(Micropolygons::new(gpu, plan, mesh.unwrap_or_default()));
         }
@@ -177,7 +179,11 @@ impl Stage {
                             (view.pom_samples_min, view.pom_samples_max) = (fewest as f32, most as f32);
                         }
                     }
-                    mesh_draws(&body.mesh, part.triangles.clone(), view, seen, choice)
+                    let mut draws = mesh_draws(&body.mesh, part.triangles.clone(), view, seen, choice);
+                    if choice.technique == Technique::Mesh {
+                        draws.push(Draw { geometry: Geometry::Walls, choice, triangles: part.triangles.clone(), view });
+                    }
+                    draws
                 }));
             }
         }
@@ -243,6 +249,11 @@ impl Stage {
                     let instances = if draw.view.planar == 2 && draw.view.wrap == 1 { 9 } else { 1 };
                     if let Some(micropolygons) = &self.micropolygons {
                         micropolygons.draw(pass, &micropolygons.of(&draw.triangles), instances);
+                    }
+                }
+                Geometry::Walls => {
+                    if let Some(micropolygons) = &self.micropolygons {
+                        micropolygons.draw(pass, &micropolygons.walls_of(&draw.triangles), 1);
                     }
                 }
                 // Three tetrahedra of four sides.

@@ -57,7 +57,7 @@ fn a_warm_up_is_the_beginning_of_one_long_run() {
 
 #[test]
 fn frame_0_is_the_untouched_start_and_eight_frames_change_it_visibly() {
-    for scene in ["ripples", "bullet-wall"] {
+    for scene in ["ripples", "bullet-wall", "depth-image", "cube", "planet"] {
         let directory = tempfile::tempdir().expect("there is a temporary directory");
         let out = directory.path();
         for seed in ["1", "2"] {

@@ -82,6 +82,8 @@ fn level_of_detail_looks_the_same_and_costs_less() {
     let Some(gpu) = gpu() else { return };
     compare(gpu, Technique::Pom, Shadow::PomSoft, [240, 150], 4);
     compare(gpu, Technique::Exact, Shadow::Hard, [240, 150], 4);
+    compare(gpu, Technique::Pyramid, Shadow::None, [240, 150], 4);
+    compare(gpu, Technique::Relief, Shadow::None, [240, 150], 4);
 }
 
 #[test]

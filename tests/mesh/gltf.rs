@@ -103,14 +103,16 @@ fn materials_and_given_frames_are_kept() {
     one["material"] = json!(1);
     let mut two = square(&mut file);
     two["material"] = json!(0);
+    let mut three = square(&mut file);
+    three["material"] = json!(1);
     let mut points = square(&mut file);
     points["mode"] = json!(0);
     file.json["materials"] = json!([{}, { "name": "skin" }]);
-    file.push("meshes", json!({ "primitives": [one, two, points] }));
+    file.push("meshes", json!({ "primitives": [one, two, points, three] }));
     file.push("nodes", json!({ "mesh": 0 }));
     let mesh = parse(&file.glb()).unwrap();
     let parts: Vec<_> = mesh.parts.iter().map(|part| (part.material.as_str(), part.triangles.clone())).collect();
-    assert_eq!(parts, [("skin", 0..2), ("material 0", 2..4)]);
+    assert_eq!(parts, [("skin", 0..4), ("material 0", 4..6)]);
     for vertex in &mesh.vertices[..4] {
         assert!(close(vertex.normal, Vec3::from(normal)), "{vertex:?}");
         assert!(vertex.tangent.distance(Vec4::new(1.0, 0.0, 0.0, -1.0)) < MESH_FRAME as f32, "{vertex:?}");

@@ -56,6 +56,17 @@ fn triangles_are_grouped_by_material() {
     assert_eq!(parts, [("a", 0..2), ("b c", 2..3)]);
 }
 
+/// One face without normals, and those of all are computed.
+#[test]
+fn normals_are_given_for_all_or_computed_for_all() {
+    let text = SQUARE.replace("vn 0 0 1", "vn 0 1 1");
+    let [given, mixed] = ["f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1", "f 1/1/1 2/2/1 3/3/1\nf 1/1 3/3 4/4"]
+        .map(|faces| parse(&format!("{text}{faces}")).unwrap());
+    let tilted = Vec3::new(0.0, 1.0, 1.0).normalize();
+    assert!(given.vertices.iter().all(|vertex| vertex.normal.distance(tilted) < MESH_FRAME as f32));
+    assert!(mixed.vertices.iter().all(|vertex| vertex.normal.distance(Vec3::Z) < MESH_FRAME as f32));
+}
+
 /// A mirrored texture has the other sign.
 #[test]
 fn a_mirrored_texture_turns_the_bitangent() {
@@ -69,8 +80,8 @@ fn a_mirrored_texture_turns_the_bitangent() {
 /// A concave quad is cut where both halves face alike, a convex one along its shorter diagonal.
 #[test]
 fn quads_are_cut_well() {
-    // An arrowhead: the fourth corner lies inside the triangle of the others, so that 1–3 would turn a half over.
-    let arrow = "v 0 0 0\nv 4 0 0\nv 0.5 0.5 0\nv 0 4 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    // An arrowhead: its third corner lies inside the triangle of the others, so that the shorter diagonal would turn a half over.
+    let arrow = "v 10 0 0\nv -1 1 0\nv 0 0 0\nv -1 -1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
     for face in ["f 1/1 2/2 3/3 4/4", "f 2/2 3/3 4/4 1/1"] {
         let mesh = parse(&format!("{arrow}{face}")).unwrap();
         for corners in mesh.triangles() {

@@ -47,6 +47,10 @@ pub const STAMP_VOLUME: f64 = 1e-3;
 /// 4,096 stamps of radius 8 in steps of the wave at 1024²: the project's budget.
 pub const STAMP_BUDGET_STEPS: f64 = 2.0;
 
+/// Levels of 255 by which one colour may differ under fields of different sizes: the filter's 8 bits of fraction move the place by a
+/// 256th of a pixel of the image, and two levels are what adapters round differently.
+pub const ALBEDO_IMAGE_LEVELS: u8 = 3;
+
 /// Precision that a lattice position has at the least, cells.
 pub const LATTICE_FLOOR: f64 = 1e-4;
 
@@ -170,9 +174,9 @@ pub const SOFT_VARIATION: f64 = 1.01;
 /// Texels by which 99 in 100 hits of a picture may differ from the reference, where a ray is four degrees above the plane: a hit's
 /// own precision, a ten-thousandth of a cell, and that of an f32 position in the world.
 pub const COMPARED_P99: f64 = 1e-3;
-/// A light model against its f64 reference, of the largest value in the list: some thirty operations at 2⁻²⁴, and a power whose
-/// base is off by one rounding, times an exponent of up to 512.
-pub const LIGHT: f64 = 4e-5;
+/// A light model against its f64 reference, relative: some thirty operations at 2⁻²⁴, and above all a power whose base is off by one
+/// rounding, 2⁻²³, times an exponent of up to 512, or what a lobe as narrow does to the cosine. Twice what was measured.
+pub const LIGHT: f64 = 1.5e-4;
 
 /// Reciprocity of a light model in f64: rounding alone.
 pub const RECIPROCITY: f64 = 1e-12;
@@ -180,8 +184,9 @@ pub const RECIPROCITY: f64 = 1e-12;
 /// The integral of GGX over the hemisphere, by a quadrature of 4,000 angles that follow the lobe.
 pub const DISTRIBUTION_INTEGRAL: f64 = 1e-6;
 
-/// What a directional albedo may exceed 1 by: the error of its quadrature.
-pub const FURNACE: f64 = 1e-4;
+/// What a directional albedo may exceed 1 by: the error of its quadrature, twice what was measured of a mirror, which reflects 1.
+/// Without the constant that the model is divided by it exceeds that by three times as much.
+pub const FURNACE: f64 = 1e-3;
 
 /// Single-scatter loss against what the shader's header states: its last digit.
 pub const FURNACE_STATED: f64 = 1e-3;
@@ -231,6 +236,7 @@ pub const CONE_RMS: f64 = 0.03;
 
 /// Share of receivers to which a light of a milliradian is a point: the project's bar.
 pub const CONE_POINT_SHARE: f64 = 0.999;
+
 /// Length of a unit vector of a mesh, and the cosine of a right angle: a few roundings of its three components, and of the sums of
 /// MikkTSpace.
 pub const MESH_FRAME: f64 = 1e-5;

@@ -1,5 +1,6 @@
 //! How it is seen.
 
+mod albedo_image;
 mod balls;
 mod facet;
 mod level_of_detail;

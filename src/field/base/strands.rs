@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{hash_cell, hash_u32, smoothstep};
+use super::noise::{hash_cell, hash_u32, smoothstep};
 
 /// Side of the cells that hold at most one daisy each, metres.
 pub const DAISY_METRES: f32 = 0.0625;

@@ -15,6 +15,7 @@ use crate::modes::headless::trusted_timer;
 use crate::modes::{ModeError, wait_for_gpu};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
+use crate::surface::albedo_image::ColourImage;
 use crate::surface::channels::Channel;
 use crate::surface::{Channels, Choice, Display};
 
@@ -29,6 +30,8 @@ pub struct Bench {
     frame: Frame,
     scene: Scene,
     mesh: Option<Mesh>,
+    /// The colours of albedo `image`.
+    colours: Option<ColourImage>,
     picture: Picture,
     tick: Tick,
     /// One for each choice that was shown: a shader takes a while to build.
@@ -76,7 +79,15 @@ impl Bench {
         // What was owed is done: from here on time stands.
         tick = Tick { previous_seconds: tick.time_seconds, steps: 0, ..tick };
         frame.timer = trusted_timer(gpu);
-        Ok(Self { frame, scene: scene.clone(), mesh: start.mesh.clone(), picture, tick, passes: HashMap::new() })
+        Ok(Self {
+            frame,
+            scene: scene.clone(),
+            mesh: start.mesh.clone(),
+            colours: start.colours.clone(),
+            picture,
+            tick,
+            passes: HashMap::new(),
+        })
     }
 
     /// The same content over a field of another size, which does not move.
@@ -95,12 +106,20 @@ impl Bench {
         let row = |y: u32| nearest(y, 1) * from[0] as usize;
         let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let material = texels.map(|(x, y)| material[row(y) + nearest(x, 0)]).collect();
-        let start = Start { scene, heights, material, mesh: self.mesh.clone() };
+        let start = Start { scene, heights, material, mesh: self.mesh.clone(), colours: self.colours.clone() };
         let image_size = self.frame.image_size();
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT)?;
         frame.timer = trusted_timer(gpu);
         let picture = Picture::new(gpu, image_size);
-        Ok(Self { frame, scene: start.scene, mesh: start.mesh, picture, tick: self.tick, passes: HashMap::new() })
+        Ok(Self {
+            frame,
+            scene: start.scene,
+            mesh: start.mesh,
+            colours: start.colours,
+            picture,
+            tick: self.tick,
+            passes: HashMap::new(),
+        })
     }
 
     /// The scene.

@@ -76,7 +76,12 @@ pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, Mod
     let total = plan.keys().len() as u64 * (1 + u64::from(options.frames));
     let progress = progress::bar(total, &table.scene.name, verbosity == Verbosity::Quiet);
     let mut own = Bench::after(&gpu, &start, frame, picture, options.warmup)?;
-    let mut gallery = Gallery { directory: directory.as_ref(), size: options.common.image_size, gain: options.gain, truths: 0 };
+    let mut gallery = Gallery {
+        directory: directory.as_ref(),
+        size: options.common.image_size,
+        gain: options.common.display.gain(),
+        truths: 0,
+    };
     for &size in &plan.field_sizes {
         let mut run = Run { gpu: &gpu, plan: &plan, frames: options.frames, progress: &progress };
         let first = table.rows.len();

@@ -225,9 +225,9 @@ impl Session {
         self.panel.scene.seed = seed;
         self.panel.original.seed = seed;
         self.apply_scene();
-        // An image has no seed.
+        // An image has no seed, nor has a text.
         if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone());
+            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone()).with_colours(self.start.colours.take());
         }
         self.restart();
         self.panel.say(format!("Seed {seed}"));

@@ -31,11 +31,8 @@ impl Panel {
                     *chosen -= 1;
                 }
             });
-            let (light, was) = (&mut scene.light, &original.light);
-            let tip = "Half the angle that the disc of each light spans: how soft cone and area shadows are";
-            let control = Control::new("Half-angle", "°", 0.05, 15.0).logarithmic().tip(tip);
-            value(ui, &control, &mut light.half_angle_degrees, was.half_angle_degrees);
             ui.label(RichText::new("Surroundings").weak());
+            let (light, was) = (&mut scene.light, &original.light);
             const BACKGROUND: &str = "What is behind everything";
             choice(ui, "Background", BACKGROUND, &mut light.background, was.background, Background::ALL, Background::label);
             colour(ui, "Sky", "Light from above, linear", &mut light.sky, was.sky);
@@ -57,6 +54,11 @@ fn directional_rows(ui: &mut Ui, scene: &mut Scene, original: &Scene, chosen: us
     value(ui, &control, &mut light.azimuth_degrees, was.azimuth_degrees);
     let control = Control::new("Elevation", "°", 1.0, 90.0).decimals(0).tip("How high it stands above the plane");
     value(ui, &control, &mut light.elevation_degrees, was.elevation_degrees);
+    if chosen == 0 {
+        let tip = "Half the angle that its disc spans: how soft cone and area shadows are";
+        let control = Control::new("Half-angle", "°", 0.05, 15.0).logarithmic().tip(tip);
+        value(ui, &control, &mut scene.light.half_angle_degrees, original.light.half_angle_degrees);
+    }
     let control = Control::new("Turn", "°/s", -90.0, 90.0).decimals(0).tip("How fast it travels round the vertical");
     value(ui, &control, &mut light.turn_degrees_per_second, was.turn_degrees_per_second);
     let control = Control::new("Intensity", " ×", 0.0, 10.0).tip("Radiance of a white surface that faces it");

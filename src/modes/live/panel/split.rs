@@ -23,8 +23,8 @@ impl Panel {
             area.constrain(false).show(ctx, |ui| {
                 let (_, response) = ui.allocate_exact_size(vec2(2.0 * REACH, uncovered.height()), Sense::drag());
                 response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Drag the divider"));
-                if response.dragged() {
-                    split.fraction = (split.fraction + response.drag_delta().x / picture.width()).clamp(0.0, 1.0);
+                if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+                    split.fraction = ((pointer.x - picture.left()) / picture.width()).clamp(0.0, 1.0);
                 }
                 response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
             });

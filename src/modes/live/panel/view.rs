@@ -21,6 +21,10 @@ impl Panel {
                 let control = Control::new("Gain", " ×", 0.01, 1000.0).logarithmic().tip(tip);
                 value(ui, &control, &mut display.gain, Display::GAIN);
             }
+            if display.shows == Shows::LevelCap || display.split.is_some_and(|split| split.shows == Shows::LevelCap) {
+                let control = Control::new("Level", "", 0.0, 12.0).integer().tip("Where the traversal of the pyramid ends");
+                value(ui, &control, &mut display.level_cap, Display::LEVEL_CAP);
+            }
             let mut splits = display.split.is_some();
             const SPLIT: &str = "The same field on both sides of a divider, traced in two ways (B)";
             toggles = ui.checkbox(&mut splits, "Split screen").on_hover_text(SPLIT).changed();
