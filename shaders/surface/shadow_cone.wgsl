@@ -110,22 +110,6 @@ fn shadow_cone_wedge(disc: LightDisc) -> ShadowConeWedge {
     return ShadowConeWedge(vec2i(1.0 - major), abs(dot(skewed, 1.0 - major)), abs(ahead));
 }
 
-fn shadow_cone_way(travel: vec2f) -> TraversalWay {
-    let backward = travel < vec2f(0.0);
-    let toward = select(vec2i(1), vec2i(-1), backward);
-    return TraversalWay(vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1);
-}
-
-fn shadow_cone_place(ray: Ray, travel: vec2f, way: TraversalWay, t: f32, level: i32) -> TraversalPlace {
-    let lattice = ray.lattice + t * travel;
-    let cell = vec2i(select(floor(lattice), ceil(lattice) - 1.0, way.backward)) + ray.cell;
-    if !way.wraps {
-        return TraversalPlace(clamp(cell, vec2i(-1), way.cells - 1), -ray.cell, level);
-    }
-    let tile = (cell / way.cells - select(vec2i(0), vec2i(1), cell % way.cells < vec2i(0))) * way.cells;
-    return TraversalPlace(cell - tile, tile - ray.cell, level);
-}
-
 // The horizon of a slice between two t: `foot` raised by all that stands in the way, to no more than `top`. All three are climbs in
 // units of the centre's.
 fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, t_stop: f32, foot: f32, top: f32) -> f32 {
@@ -139,10 +123,10 @@ fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, 
     let still = abs(slice_travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(slice_travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(slice_travel, vec2f(TRAVERSAL_STILL), still);
-    let way = shadow_cone_way(travel);
+    let way = traversal_way(travel);
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
     let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
-    var place = shadow_cone_place(ray, travel, way, t_begin, level);
+    var place = traversal_place(ray, way, ray.lattice + t_begin * travel, level);
     var steps = 0u;
     while t < t_end {
         // On to the next cell whose bound is above the ray; see surface/traversal.
@@ -151,14 +135,9 @@ fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, 
         var arrived = false;
         while !arrived && steps < view.step_cap {
             steps += 1u;
-            let scale = vec2u(u32(place.level));
-            let last_node = traversal_nodes(way, place.level) - 1;
             let node = traversal_node(way, place, place.level);
             let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
-            let outermost = node == select(last_node, vec2i(-1), way.backward);
-            let border = select((node + select(vec2i(1), vec2i(0), way.backward)) << scale, way.cells, outermost);
-            let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
-            let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+            let t_border = traversal_borders(ray, way, place, node, per_travel);
             t_out = max(t, min(min(t_border.x, t_border.y), t_end));
             crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
             let enters = start + climb * t <= bound;
@@ -168,14 +147,7 @@ fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, 
                     return climb;
                 }
                 t = select(t_out, t, enters);
-                let first = max(node << scale, vec2i(-1));
-                let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
-                let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
-                if enters {
-                    place = TraversalPlace(there, place.tile, place.level - 1);
-                } else {
-                    place = traversal_across(way, place, select(there, select(last, first, way.backward), crosses), crosses);
-                }
+                place = traversal_onward(way, place, node, ray.lattice + t * travel, enters, crosses);
             }
         }
         if !arrived {
@@ -203,11 +175,11 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
     let still = abs(middle_travel) < vec2f(TRAVERSAL_STILL);
     let travel = select(middle_travel, vec2f(0.0), still);
     let per_travel = 1.0 / select(middle_travel, vec2f(TRAVERSAL_STILL), still);
-    let way = shadow_cone_way(travel);
+    let way = traversal_way(travel);
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
     let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
     let axis = vec2f(wedge.side);
-    var place = shadow_cone_place(ray, travel, way, t_begin, level);
+    var place = traversal_place(ray, way, ray.lattice + t_begin * travel, level);
     var t = t_begin;
     var steps = 0u;
     while t < t_end {
@@ -215,17 +187,10 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
         if steps > view.step_cap {
             return t;
         }
-        let scale = vec2u(u32(place.level));
-        let last_node = traversal_nodes(way, place.level) - 1;
         let node = traversal_node(way, place, place.level);
-        let outermost = node == select(last_node, vec2i(-1), way.backward);
-        let border = select((node + select(vec2i(1), vec2i(0), way.backward)) << scale, way.cells, outermost);
-        let crossed = (vec2f(border + place.tile) - ray.lattice) * per_travel;
-        let t_border = select(crossed, vec2f(TRAVERSAL_NEVER), outermost & vec2<bool>(!way.wraps));
+        let t_border = traversal_borders(ray, way, place, node, per_travel);
         let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
         let crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
-        let first = max(node << scale, vec2i(-1));
-        let last = select(((node + 1) << scale) - 1, way.cells - 1, node == last_node);
 
         let width = wedge.spread * t_out;
         let size = f32(1u << u32(place.level));
@@ -234,11 +199,15 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
             continue;
         }
         // The nodes that the wedge reaches into from this one.
+        let last_node = traversal_nodes(way, place.level) - 1;
+        let scale = vec2u(u32(place.level));
+        let first = node << scale;
+        let end = select((node + 1) << scale, way.cells, node == last_node);
         let origin = dot(axis, ray.lattice - vec2f(place.tile));
         let enter = origin + t * dot(axis, travel);
         let leave = origin + t_out * dot(axis, travel);
         let below = select(vec2i(0), wedge.side, min(enter, leave) - width < dot(axis, vec2f(first)));
-        let above = select(vec2i(0), wedge.side, max(enter, leave) + width > dot(axis, vec2f(last + 1)));
+        let above = select(vec2i(0), wedge.side, max(enter, leave) + width > dot(axis, vec2f(end)));
         let bound = max(
             textureLoad(pyramid, max(node, vec2i(0)), place.level).r,
             max(
@@ -251,12 +220,7 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
             return max(behind * t, t_begin);
         }
         t = select(t_out, t, rises);
-        let there = clamp(vec2i(floor(ray.lattice + t * travel)) - place.tile, first, last);
-        if rises {
-            place = TraversalPlace(there, place.tile, place.level - 1);
-        } else {
-            place = traversal_across(way, place, select(there, select(last, first, way.backward), crosses), crosses);
-        }
+        place = traversal_onward(way, place, node, ray.lattice + t * travel, rises, crosses);
     }
     return TRAVERSAL_NEVER;
 }

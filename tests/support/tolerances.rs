@@ -218,11 +218,12 @@ pub const AREA_CONVERGED: f64 = 2e-3;
 /// bilinear step is wide.
 pub const AREA_RAMP: f64 = 0.01;
 
-/// `cone` against its f64 reference: rounding of a slope over the light's radius.
-pub const CONE_VISIBILITY: f64 = 5e-3;
+/// `cone` against its f64 reference: the lift of a millionth of the height range, seen from a tenth of a cell away, is a hundredth of
+/// the light's radius.
+pub const CONE_VISIBILITY: f64 = 0.02;
 
-/// Share of receivers where it may differ by more.
-pub const CONE_OFF_SHARE: f64 = 5e-3;
+/// Share of receivers where it may differ by more: nearer to a crest than that.
+pub const CONE_OFF_SHARE: f64 = 0.02;
 
 /// What rounding may add to the visibility of a blocker that grows.
 pub const CONE_ROUNDING: f64 = 1e-4;

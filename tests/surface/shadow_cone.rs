@@ -13,6 +13,7 @@ use crate::support::tolerances;
 #[test]
 fn every_visibility_is_the_references() {
     let Some(gpu) = gpu() else { return };
+    let mut worst = 0.0_f64;
     for (kind, addressing) in Kind::ALL.into_iter().flat_map(|kind| ADDRESSINGS.map(|addressing| (kind, addressing))) {
         let field = kind.field([200, 150], addressing);
         for light in
@@ -26,9 +27,10 @@ fn every_visibility_is_the_references() {
                 seen.iter().zip(&truth).filter(|(seen, truth)| (*seen - *truth).abs() > tolerances::CONE_VISIBILITY).count();
             let share = off as f64 / list.len() as f64;
             println!("{kind:?} {addressing:?} {light:?}: {share:.4} off, rms {:.5}", lights::rms(&seen, &truth));
-            assert!(share <= tolerances::CONE_OFF_SHARE, "{share}: {kind:?} {addressing:?} {light:?}");
+            worst = worst.max(share);
         }
     }
+    assert!(worst <= tolerances::CONE_OFF_SHARE, "{worst}");
 }
 
 #[test]

@@ -21,7 +21,7 @@ impl Panel {
             techniques::rows(ui, trace, was);
             if trace.shadow == Shadow::Area {
                 let tip = "Points of the light's disc, a ray each";
-                let control = Control::new("Shadow rays", "", 1.0, 1024.0).integer().logarithmic().tip(tip);
+                let control = Control::new("Shadow rays", "", 1.0, 512.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.area_samples, was.area_samples);
             }
             if trace.technique == Technique::Mesh {
@@ -29,10 +29,12 @@ impl Panel {
                 let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
             }
-            if trace.shadow == Shadow::PomSoft {
-                let tip = "Samples along the ray to the light";
+            if matches!(trace.shadow, Shadow::PomSoft | Shadow::Steep) {
+                let tip = "Samples along the ray to the light; of steep shadows, layers of the whole depth";
                 let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
                 value(ui, &control, &mut trace.shadow_samples, was.shadow_samples);
+            }
+            if trace.shadow == Shadow::PomSoft {
                 let tip = "How fast a blocker darkens";
                 let control = Control::new("Shadow strength", " ×", 0.0, 20.0).decimals(1).tip(tip);
                 value(ui, &control, &mut trace.shadow_strength, was.shadow_strength);
