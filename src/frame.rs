@@ -377,6 +377,11 @@ impl Frame {
         }
     }
 
+    /// The mesh that carries the relief; none: the plane.
+    pub fn mesh(&self) -> Option<&Mesh> {
+        self.mesh.as_ref()
+    }
+
     /// The stage on which the scene is seen, where it needs one.
     pub fn stage(&self) -> Option<&Stage> {
         self.stage.as_ref()

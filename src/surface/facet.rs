@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
+use super::probe::{Hit, Ray};
 use super::ray_map::Placement;
 use crate::mesh::{Mesh, Vertex, tangents};
 
@@ -53,6 +54,46 @@ impl Chart {
         let (one, two) = (&self.placement, &other.placement);
         near(one.origin, two.origin) && near(one.u, two.u) && near(one.v, two.v) && near(one.up, two.up)
     }
+}
+
+/// The ray in field space that a ray in the world becomes at the first triangle whose outside it meets, for a pointer: the surface
+/// counts as flat there. None where it meets none.
+pub fn pick(
+    vertices: &[Vertex],
+    indices: &[u32],
+    field_size: [u32; 2],
+    depth_metres: f64,
+    eye: DVec3,
+    direction: DVec3,
+) -> Option<Ray> {
+    let met = indices.chunks_exact(3).filter_map(|corners| {
+        let corners = [0, 1, 2].map(|i| vertices[corners[i] as usize]);
+        let [a, b, c] = corners.map(|corner| corner.position.as_dvec3());
+        let (edges, normal) = (DMat3::from_cols(b - a, c - a, -direction), (b - a).cross(c - a));
+        if normal.dot(direction) >= 0.0 {
+            return None;
+        }
+        let weights = edges.inverse() * (eye - a);
+        let inside = weights.x >= 0.0 && weights.y >= 0.0 && weights.x + weights.y <= 1.0 && weights.z > 0.0;
+        inside.then_some((weights, corners, normal.normalize()))
+    });
+    let (weights, corners, normal) = met.min_by(|one, other| one.0.z.total_cmp(&other.0.z))?;
+    let [along_u, along_v] = tangents::gradients(corners.map(|corner| corner.position), corners.map(|corner| corner.uv))?;
+    let uvs = corners.map(|corner| corner.uv.as_dvec2());
+    let uv = uvs[0] + weights.x * (uvs[1] - uvs[0]) + weights.y * (uvs[2] - uvs[0]);
+    let size = field_size.map(f64::from);
+    let field_from_world = DMat3::from_cols(along_u / size[0], along_v / size[1], normal * depth_metres).inverse();
+    let way = field_from_world * direction;
+    let lattice = [uv.x * size[0] - 0.5, uv.y * size[1] - 0.5];
+    Some(Ray {
+        lattice: lattice.map(|at| (at - at.floor()) as f32),
+        travel: [(way.x / -way.z) as f32, (way.y / -way.z) as f32],
+        height: 1.0,
+        rise: -1.0,
+        cell: lattice.map(|at| at.floor() as i32),
+        t_end: 1.0,
+        ends: Hit::HIT,
+    })
 }
 
 /// Metres that a tile measures along u and along v at every vertex: the mean of its triangles, by area.

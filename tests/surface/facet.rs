@@ -5,7 +5,7 @@ use rilievo::camera::Camera;
 use rilievo::mesh::Shape;
 use rilievo::reference::Addressing;
 use rilievo::reference::traversal::Line;
-use rilievo::surface::facet::charts;
+use rilievo::surface::facet::{charts, pick};
 
 use crate::support::fields::Kind;
 use crate::support::gpu::gpu;
@@ -121,4 +121,36 @@ fn a_mesh_of_ones_shows_its_polygons() {
         }
         assert_eq!(wrong, 0, "{}", shape.name());
     }
+}
+
+/// A pointer's ray meets the field where the picture shows it: on a box the same numbers as the channels.
+#[test]
+fn a_pointer_picks_what_its_pixel_shows() {
+    let Some(gpu) = gpu() else { return };
+    let field = Kind::Elevation.field([128, 128], Addressing::Wrap);
+    let camera = Camera::look_at(DVec3::new(0.9, 0.8, 1.1), DVec3::ZERO, 0.9, 0.01);
+    let mesh = Shape::Box.mesh([1.0, 1.0]);
+    let mut scene = scene_of(&field);
+    scene.trace.technique = rilievo::surface::Technique::Normal;
+    let (channels, _) = seen(gpu, &scene, &field, Some(mesh.clone()), &camera, SIZE);
+    let (mut picked, mut missed) = (0, 0);
+    for (index, channel) in channels.iter().enumerate().step_by(29) {
+        let pixel = DVec2::new((index as u32 % SIZE[0]) as f64 + 0.5, (index as u32 / SIZE[0]) as f64 + 0.5);
+        let depth = f64::from(scene.plane.depth_metres);
+        let ray = pick(&mesh.vertices, &mesh.indices, field.size, depth, camera.eye(), camera.direction(pixel, SIZE));
+        match (ray, channel.steps >= 0.0) {
+            (Some(ray), true) => {
+                let uv = ray.lattice_at(0.0).map(|at| (at + 0.5) / 128.0);
+                let apart = rays::distance(uv, channel.uv.map(f64::from));
+                // At an edge between two faces either may be meant.
+                if apart > 1e-5 {
+                    missed += 1;
+                }
+                picked += 1;
+            }
+            (None, false) => {}
+            _ => missed += 1,
+        }
+    }
+    assert!(picked > 500 && missed <= picked / 200, "{missed} of {picked}");
 }

@@ -10,7 +10,7 @@ use crate::frame::Frame;
 use crate::gpu::{Gpu, Readback, ShaderError};
 use crate::surface::probe::{Hit, Ray};
 use crate::surface::ray_map::{Placement, Target, pixel_ray};
-use crate::surface::{Probe, Shadow, Shows, Technique, View};
+use crate::surface::{Probe, Shadow, Shows, Technique, View, facet};
 
 /// Asks the GPU what pixels show, and has the answers some frames later.
 #[derive(Default)]
@@ -44,7 +44,14 @@ impl Picker {
             plane_size_metres: scene.plane_size_metres(),
             depth_metres: f64::from(scene.plane.depth_metres),
         };
-        let ray = |pixel: &DVec2| pixel_ray(camera, image_size, &target, pixel.to_array());
+        let posed = frame.mesh().map(|mesh| (mesh.posed(time_seconds), &mesh.indices));
+        let ray = |pixel: &DVec2| match &posed {
+            None => pixel_ray(camera, image_size, &target, pixel.to_array()),
+            Some((vertices, indices)) => {
+                let direction = camera.direction(*pixel, image_size);
+                facet::pick(vertices, indices, target.field_size, target.depth_metres, camera.eye(), direction)
+            }
+        };
         let rays: Vec<Ray> = pixels.iter().filter_map(ray).collect();
         if rays.is_empty() || self.pending.len() >= Self::MOST_PENDING {
             return Ok(());

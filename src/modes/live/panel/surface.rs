@@ -24,11 +24,6 @@ impl Panel {
                 let control = Control::new("Shadow rays", "", 1.0, 512.0).integer().logarithmic().tip(tip);
                 value(ui, &control, &mut trace.area_samples, was.area_samples);
             }
-            if trace.technique == Technique::Mesh {
-                let tip = "About how many micropolygons there are";
-                let control = Control::new("Triangles", "", 2048.0, 8_388_608.0).integer().logarithmic().tip(tip);
-                value(ui, &control, &mut trace.mesh_triangles, was.mesh_triangles);
-            }
             if matches!(trace.shadow, Shadow::PomSoft | Shadow::Steep) {
                 let tip = "Samples along the ray to the light; of steep shadows, layers of the whole depth";
                 let control = Control::new("Shadow samples", "", 1.0, 128.0).integer().tip(tip);
