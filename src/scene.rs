@@ -24,8 +24,8 @@ pub use lod::{LOD_THRESHOLD, Lod};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
-    COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, Range, SAMPLES_MAX, SceneError, VERTICAL_FOV_DEGREES,
-    check_camera,
+    COURANT_SQUARED_MAX, DEPTH_METRES, LIGHT_HALF_ANGLE_DEGREES, MESH_TRIANGLES, Range, SAMPLES_MAX, SceneError,
+    VERTICAL_FOV_DEGREES, check_camera,
 };
 
 /// The version of the scene format that this program reads and writes.

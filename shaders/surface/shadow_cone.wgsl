@@ -192,7 +192,8 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
         let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
         let crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
 
-        let width = wedge.spread * t_out;
+        // A side ray is over the same place along the major axis at up to t / behind.
+        let width = wedge.spread * t_out / behind;
         let size = f32(1u << u32(place.level));
         if size < width && place.level < way.top {
             place.level += 1;

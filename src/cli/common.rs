@@ -7,9 +7,9 @@ use clap::Args;
 use super::Verbosity;
 use super::display::DisplayOptions;
 use super::values::{
-    Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, non_empty, pom_counts, pom_counts_help,
-    pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size, switch, technique,
-    technique_help, whole_u64,
+    Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, mesh_triangles, non_empty, pom_counts,
+    pom_counts_help, pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size,
+    switch, technique, technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
@@ -94,6 +94,10 @@ pub struct CommonOptions {
     #[arg(long, value_name = "NAME|FILE", value_parser = mesh, help_heading = "Scene")]
     mesh: Option<MeshSource>,
 
+    /// About how many triangles the technique mesh draws [default: the scene's]
+    #[arg(long, value_name = "N", value_parser = mesh_triangles, allow_negative_numbers = true, help_heading = "Scene")]
+    mesh_triangles: Option<u32>,
+
     /// Draw the relief as a solid with a silhouette of its own, which ends at its mesh's borders [default: the scene's]
     #[arg(long, help_heading = "Scene")]
     shell: bool,
@@ -135,6 +139,7 @@ impl CommonOptions {
             field: self.field,
             depth_metres: self.depth,
             mesh: self.mesh.clone(),
+            mesh_triangles: self.mesh_triangles,
             shell: self.shell,
             displaced_depth: self.displaced_depth,
             technique: self.technique,

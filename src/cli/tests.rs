@@ -50,7 +50,7 @@ fn values_arrive() {
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --albedo c.png --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
          --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --light-angle 2.5 --adapter llvm --backend gl -v \
-         --mesh torus --shell --displaced-depth \
+         --mesh torus --mesh-triangles 5000 --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
     assert_eq!(options.common.scene, "a.toml");
@@ -79,6 +79,7 @@ fn values_arrive() {
             camera: Some(CameraPlacement { eye: [-1.0, 2.0, -3.0], target: [0.0, -0.5, 1e-3] }),
             vertical_fov_degrees: Some(30.0),
             mesh: Some(MeshSource::Shape(Shape::Torus)),
+            mesh_triangles: Some(5000),
             shell: true,
             displaced_depth: true,
             light_half_angle_degrees: Some(2.5),
@@ -134,7 +135,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --out DIR", "--frames"),
         (
             "live --technique exat",
-            "did you mean `exact`, of normal, parallax, parallax-limited, steep, relief, pom-linear, pom, pyramid and exact?",
+            "did you mean `exact`, of normal, parallax, parallax-limited, steep, relief, pom-linear, pom, pyramid, mesh and exact?",
         ),
         ("live --pom-counts texel", "did you mean `texels`, of angle and texels?"),
         ("live --relief-bias yes", "on and off"),

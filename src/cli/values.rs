@@ -118,6 +118,12 @@ pub(super) fn lod(text: &str) -> Result<Detail, String> {
     }
 }
 
+pub(super) fn mesh_triangles(text: &str) -> Result<u32, String> {
+    let [fewest, most] = scene::MESH_TRIANGLES;
+    let found = text.parse().ok().filter(|count| (fewest..=most).contains(count));
+    found.ok_or_else(|| format!("it must be a whole number from {fewest} to {most}"))
+}
+
 pub(super) fn mesh(text: &str) -> Result<MeshSource, String> {
     text.parse()
 }

@@ -69,6 +69,8 @@ pub struct SceneOverrides {
     pub depth_metres: Option<f32>,
     /// The mesh that carries the relief.
     pub mesh: Option<MeshSource>,
+    /// About how many triangles the technique `mesh` draws.
+    pub mesh_triangles: Option<u32>,
     /// Draw its shell.
     pub shell: bool,
     /// Write the relief's depth.
@@ -356,6 +358,9 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     }
     if let Some(source) = &overrides.mesh {
         scene.mesh = Some(scene::Mesh { source: source.clone(), tiles: [1.0, 1.0], ..scene::Mesh::default() });
+    }
+    if let Some(triangles) = overrides.mesh_triangles {
+        scene.trace.mesh_triangles = triangles;
     }
     scene.trace.shell |= overrides.shell;
     scene.trace.displaced_depth |= overrides.displaced_depth;

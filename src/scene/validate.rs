@@ -27,7 +27,7 @@ pub const COURANT_SQUARED_MAX: f64 = 0.49;
 const SAMPLES: Range = Range::from_to(1.0, SAMPLES_MAX as f64, "samples");
 
 /// Triangles of a micropolygon mesh: the plane's own two, and as many as fit the buffers that every adapter allows.
-const MESH_TRIANGLES: Range = Range::from_to(2.0, 8_388_608.0, "triangles");
+pub const MESH_TRIANGLES: [u32; 2] = [2, 8_388_608];
 
 /// The numbers that a key may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -259,7 +259,8 @@ fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
     number("trace.relief_binary_steps", trace.relief_binary_steps, Range::from_to(1.0, 24.0, "samples"))?;
     number("trace.pom_samples_min", trace.pom_samples_min, SAMPLES)?;
     number("trace.pom_samples_max", trace.pom_samples_max, SAMPLES)?;
-    number("trace.mesh_triangles", trace.mesh_triangles, MESH_TRIANGLES)?;
+    let [fewest, most] = MESH_TRIANGLES.map(f64::from);
+    number("trace.mesh_triangles", trace.mesh_triangles, Range::from_to(fewest, most, "triangles"))?;
     if trace.pom_samples_min > trace.pom_samples_max {
         let allowed = format!("at most `trace.pom_samples_max`, {}", trace.pom_samples_max);
         return refuse("trace.pom_samples_min", trace.pom_samples_min, allowed);

@@ -57,10 +57,10 @@ choices! {
         PomLinear = "pom-linear", "trace_pom_linear", "POM, linear search alone";
         /// Parallax occlusion mapping: a linear search, then the ray against the last linear segment (\[POM\] §3.1).
         Pom = "pom", "trace_pom", "Parallax occlusion mapping";
-        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
-        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
         /// Pyramidal displacement mapping: down a pyramid of bounds to a column, then half a pixel's refinement (\[PDM\]).
         Pyramid = "pyramid", "trace_pyramid", "Pyramidal displacement";
+        /// The micropolygon mesh that the papers compare with, displaced in the vertex stage (\[POM\] §4, \[PDM\] fig. 20).
+        Mesh = "mesh", "trace_mesh", "Micropolygon mesh";
         /// Exact intersection with the bilinear surface, through the pyramid of cell bounds.
         Exact = "exact", "trace_exact", "Exact";
     }
