@@ -148,7 +148,7 @@ pub enum Shows {
     LevelCap = 8,
     /// The mip level of the pixel, as heat.
     MipLevel = 16,
-    /// The picture, the bluer the lower the level of detail ([POM] fig. 12): deep blue is normal mapping alone.
+    /// The picture, the bluer the lower the level of detail (\[POM\] fig. 12): deep blue is normal mapping alone.
     LodTint = 17,
 }
 

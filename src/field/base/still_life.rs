@@ -1,6 +1,6 @@
 //! A still life as a depth camera takes it: the distance of every pixel, and its colour.
 //!
-//! A vase, fruit and books on a table before a curtain, cast by parallel rays that look a little down ([PDM] fig. 19 turns and lights
+//! A vase, fruit and books on a table before a curtain, cast by parallel rays that look a little down (\[PDM\] fig. 19 turns and lights
 //! such a pair of images). Rays march along the distance to the nearest thing. The colours are those of the things, with what shade
 //! their neighbours cast round contacts, but no light of their own: the scene brings that.
 
