@@ -14,7 +14,7 @@ fn ball_seen(position: vec2f) -> BallSeen {
     var seen = BallSeen(0u, vec3f(0.0), false);
     var nearest = 3e38;
     for (var i = 0u; i < view.ball_count; i++) {
-        let t = ball_hit(view.balls[i], view.eye_world, direction);
+        let t = ball_hit(view_buffer.balls[i], view.eye_world, direction);
         // The direction has unit length along the view axis: t is the distance along it.
         if t > view.near_metres && t < nearest {
             nearest = t;
@@ -32,7 +32,7 @@ fn ball(@builtin(position) position: vec4f) -> ColourAndDepth {
         discard;
     }
     let toward_eye = normalize(view.eye_world - seen.position);
-    let colour = ball_radiance(view.balls[seen.index], seen.position, toward_eye);
+    let colour = ball_radiance(view_buffer.balls[seen.index], seen.position, toward_eye);
     return ColourAndDepth(vec4f(colour, 1.0), raster_depth(seen.position));
 }
 

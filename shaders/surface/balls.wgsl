@@ -1,6 +1,10 @@
 // Balls: other objects than the relief, whose shadows fall upon it and whose images it reflects ([POM] fig. 13).
 //
-// Specification: src/reference/balls.rs. Composed after common/view.wgsl and surface/sky.wgsl.
+// Specification: src/reference/balls.rs. Composed after common/view.wgsl and surface/sky.wgsl. The balls are read where they lie: an
+// index that varies would keep the whole of the private `view` in memory.
+
+// Whether there are any. Fixed when the pipeline is built: a software adapter runs a loop's body once, whatever its condition.
+override BALLS: bool = true;
 
 // Where a ray first meets a ball's surface from outside, in units of its direction; −1 where it does not. The half chord comes from
 // the closest point, not from the difference of squared distances, which would cancel far away.
@@ -17,11 +21,14 @@ fn ball_hit(ball: Ball, origin: vec3f, direction: vec3f) -> f32 {
 
 // Share of a directional light that the balls let through.
 fn balls_visibility(position: vec3f, toward_light: vec3f) -> f32 {
+    if !BALLS {
+        return 1.0;
+    }
     for (var i = 0u; i < view.ball_count; i++) {
         // A point within a ball, of a relief that it is sunk in, is dark.
-        let from_centre = position - view.balls[i].centre;
-        let inside = dot(from_centre, from_centre) < view.balls[i].radius * view.balls[i].radius;
-        if inside || ball_hit(view.balls[i], position, toward_light) > 0.0 {
+        let from_centre = position - view_buffer.balls[i].centre;
+        let inside = dot(from_centre, from_centre) < view_buffer.balls[i].radius * view_buffer.balls[i].radius;
+        if inside || ball_hit(view_buffer.balls[i], position, toward_light) > 0.0 {
             return 0.0;
         }
     }
@@ -43,17 +50,17 @@ fn ball_radiance(ball: Ball, position: vec3f, toward_eye: vec3f) -> vec3f {
 
 // What a glossy surface mirrors of the balls, by Schlick's Fresnel term for a dielectric, scaled by the strength of its highlight.
 fn balls_mirrored(position: vec3f, normal: vec3f, toward_eye: vec3f, strength: f32) -> vec3f {
-    if view.ball_count == 0u || strength <= 0.0 {
+    if !BALLS || strength <= 0.0 {
         return vec3f(0.0);
     }
     let direction = reflect(-toward_eye, normal);
     var nearest = -1.0;
     var mirrored = vec3f(0.0);
     for (var i = 0u; i < view.ball_count; i++) {
-        let t = ball_hit(view.balls[i], position, direction);
+        let t = ball_hit(view_buffer.balls[i], position, direction);
         if t > 0.0 && (nearest < 0.0 || t < nearest) {
             nearest = t;
-            mirrored = ball_radiance(view.balls[i], position + t * direction, -direction);
+            mirrored = ball_radiance(view_buffer.balls[i], position + t * direction, -direction);
         }
     }
     let fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, toward_eye), 0.0), 5.0);

@@ -23,6 +23,9 @@ var<private> footprint: Footprint;
 // which means lower: with half a pixel pictures of `sidewalk` differed from those without by 42 of 255 in their 99th percentile,
 // with a sixth by 13, and one step in ten more is all that it costs.
 const DETAIL_FINER: f32 = 2.5;
+// Whether anything looks less closely at all. Fixed when the pipeline is built: a software adapter runs both sides of a branch, and would
+// read the mips beside the field for every sample (2.5 times the cost of a picture on lavapipe).
+override DETAIL: bool = true;
 // The fewest samples that a count is lowered to.
 const DETAIL_SAMPLES: f32 = 4.0;
 // Where between the mean and the greatest height the plane lies on which normal mapping is left: where grazing rays meet the
@@ -53,7 +56,7 @@ fn detail_left(footprint_over_size: f32) -> f32 {
 
 // The mean height round a lattice position, at a mip level.
 fn height_over(lattice: vec2f, level: f32) -> f32 {
-    if level <= 0.0 {
+    if !DETAIL || level <= 0.0 {
         return sample_height(lattice);
     }
     return textureSampleLevel(normal_map, bilinear, uv_of(lattice), level).w;
@@ -63,7 +66,7 @@ fn height_over(lattice: vec2f, level: f32) -> f32 {
 // than a texel, since counts are chosen for what is near and are few there already. They go on sampling the field itself: its
 // means are lower than what a grazing ray meets, and it would search the longer for that.
 fn detail_samples(samples: f32) -> f32 {
-    if view.detail.traces == 0u {
+    if !DETAIL || view.detail.traces == 0u {
         return samples;
     }
     return max(samples * exp2(-0.5 * footprint.level), min(samples, DETAIL_SAMPLES));
@@ -79,6 +82,9 @@ fn detail_plane(ray: Ray) -> f32 {
 // The technique's hit, as far as the pixel's level of detail goes: over the last level before the threshold the surface
 // flattens to a plane, and beyond it nothing is traced. A piece of a shell has no such plane.
 fn trace_detail(ray: Ray) -> Hit {
+    if !DETAIL {
+        return trace(ray);
+    }
     let flattened = select(0.0, footprint.flattened, ray.ends == HIT);
     var hit = Hit(vec2f(0.0), 0.0, 0.0, 1u, HIT);
     if flattened < 1.0 {
@@ -93,7 +99,7 @@ fn trace_detail(ray: Ray) -> Hit {
 
 // The level at which the surface is lit.
 fn light_level() -> f32 {
-    return select(0.0, footprint.level, view.detail.filters == 1u);
+    return select(0.0, footprint.level, DETAIL && view.detail.filters == 1u);
 }
 
 // The normal of what the pixel sees round a lattice position where the reference surface has the normal `reference`: unit, in the
@@ -133,7 +139,7 @@ fn detail_matter(matter: Matter, mean_length: f32) -> Matter {
 // is longer. Where none is seen the mean normal says all: what faces the light more than the mean makes up for what it shades, since
 // together they hide as much of the light as the flat polygon does.
 fn detail_shadows(light_in_field: vec2f) -> f32 {
-    if view.detail.filters == 0u {
+    if !DETAIL || view.detail.filters == 0u {
         return 1.0;
     }
     return detail_left(exp2(footprint.level) / max(length(light_in_field), 1e-6));

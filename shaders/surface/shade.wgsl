@@ -8,6 +8,9 @@ const LIGHT_LEVEL: f32 = 1e-4;
 // How far under the surface a ray must come into a shell to have come through its side: rounding is a thousandth of that.
 const CUT_DEPTH: f32 = 1e-3;
 
+// Whether the material mirrors its surroundings. Fixed when the pipeline is built, as DETAIL is.
+override REFLECTS: bool = true;
+
 struct Shaded {
     ray: Ray,
     hit: Hit,
@@ -83,8 +86,11 @@ fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     let matter = detail_matter(matter_at(point), over.w);
 
     let open = sky_visibility(hit.lattice, height);
-    let reflected = reflect(-toward_eye, normal);
-    let mirrored = sky_blurred(reflected, light_roughness(matter)) * balls_visibility(position, reflected);
+    var mirrored = vec3f(0.0);
+    if REFLECTS {
+        let reflected = reflect(-toward_eye, normal);
+        mirrored = sky_blurred(reflected, light_roughness(matter)) * balls_visibility(position, reflected);
+    }
     var radiance = matter.glow + light_around(matter, dot(normal, toward_eye), open * sky_mean(normal), open * mirrored)
         + balls_mirrored(position, normal, toward_eye, max(matter.specular, matter.reflection));
     for (var i = 0u; i < view.light_count; i++) {

@@ -75,7 +75,7 @@ fn trace_pyramid(ray: Ray) -> Hit {
         let t_bound = (bound - ray.height) / select(-1.0, ray.rise, falls);
         let t_under = select(t, max(t, t_bound), falls);
         let enters = select(ray_height(ray, t) <= bound, t_under <= t_out, falls);
-        if enters && traversal_detail > 0.0 && place.level == finest {
+        if DETAIL && enters && traversal_detail > 0.0 && place.level == finest {
             // [PDM] §3.4: the traversal ends at the pixel's own level.
             let share = traversal_coarse_leaf(ray, t_under, t_out);
             hit_level = place.level;

@@ -141,7 +141,7 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
     // measured best.
     let start = ray.lattice + t_begin * travel;
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
-    let finest = min(i32(traversal_detail), way.top);
+    let finest = select(0, min(i32(traversal_detail), way.top), DETAIL);
     let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, finest, way.top);
     var place = traversal_place(ray, way, start, level);
 
@@ -184,7 +184,7 @@ fn traversal(ray: Ray, t_begin: f32) -> Hit {
             break;
         }
         var hit: f32;
-        if traversal_detail > 0.0 {
+        if DETAIL && traversal_detail > 0.0 {
             hit = traversal_coarse_leaf(ray, t_under, t_out);
             hit_level = place.level;
         } else {

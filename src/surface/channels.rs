@@ -65,7 +65,7 @@ impl Channels {
         let output_layout = BindingLayout::new(gpu, "channels", wgpu::ShaderStages::COMPUTE, &[Binding::ReadWrite]);
         let parts = parts(gpu.filters_r32float(), choice, &["channels"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
-        let mut constants = constants(choice.albedo);
+        let mut constants = constants(choice);
         constants.extend([("WORKGROUP_X", f64::from(Self::WORKGROUP[0])), ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1]))]);
         let kernel = Kernel::new(
             gpu,

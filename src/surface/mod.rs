@@ -46,6 +46,12 @@ pub struct Choice {
     pub with_truth: bool,
     /// Whether the traversal ends at a level of the pyramid, in place of the technique.
     pub caps_level: bool,
+    /// Whether anything looks less closely where a pixel sees much of the surface.
+    pub detail: bool,
+    /// Whether there are balls.
+    pub balls: bool,
+    /// Whether the material mirrors its surroundings.
+    pub reflects: bool,
 }
 
 impl Choice {
@@ -54,13 +60,32 @@ impl Choice {
 
     /// A technique and a shadow, where nobody looks at colours.
     pub const fn tracing(technique: Technique, shadow: Shadow) -> Self {
-        Self { technique, shadow, albedo: Albedo::Plain, shading: Shading::Phong, with_truth: false, caps_level: false }
+        Self {
+            technique,
+            shadow,
+            albedo: Albedo::Plain,
+            shading: Shading::Phong,
+            with_truth: false,
+            caps_level: false,
+            detail: false,
+            balls: false,
+            reflects: false,
+        }
     }
 
     /// A scene's.
     pub fn of(scene: &Scene) -> Self {
         let (trace, material) = (&scene.trace, &scene.material);
-        Self { albedo: material.albedo, shading: material.model, ..Self::tracing(trace.technique, trace.shadow) }
+        let (detail, balls) = (scene.lod.filters(), !scene.balls.is_empty());
+        let reflects = material.reflection > 0.0;
+        Self {
+            albedo: material.albedo,
+            shading: material.model,
+            detail,
+            balls,
+            reflects,
+            ..Self::tracing(trace.technique, trace.shadow)
+        }
     }
 
     /// The same for a view of what it traces.
@@ -74,7 +99,7 @@ impl Choice {
 /// adapter does.
 pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<String> {
     let sampled = if filters_r32float { "common/height_filtered" } else { "common/height_loaded" };
-    let Choice { technique, shadow, albedo, shading, with_truth, caps_level } = choice;
+    let Choice { technique, shadow, albedo, shading, with_truth, caps_level, .. } = choice;
     let stems = [
         if caps_level { "level_cap" } else { technique.stem() },
         shadow.stem(),
@@ -110,8 +135,10 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
 }
 
 /// The `override`s that Rust owns in a composition of [`parts`], besides those of its entry points.
-pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
-    match albedo {
+pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
+    let switches = [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects)];
+    let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
+    constants.extend(match choice.albedo {
         Albedo::Brick => vec![
             ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
             ("BRICK_HEIGHT", f64::from(field::base::BRICK_METRES[1])),
@@ -127,7 +154,8 @@ pub(crate) fn constants(albedo: Albedo) -> Vec<(&'static str, f64)> {
         | Albedo::Planet
         | Albedo::Terrain
         | Albedo::Water => Vec::new(),
-    }
+    });
+    constants
 }
 
 /// Bind group layout 1 of everything that traces: the field, and the image over it.

@@ -150,7 +150,7 @@ pub fn pipeline(
         bind_group_layouts: &groups.map(|group| Some(&group.layout)),
         immediate_size: 0,
     });
-    let mut constants = constants(choice.albedo);
+    let mut constants = constants(choice);
     if let Output::Channels(part) = output {
         constants.push(("CHANNEL_PART", f64::from(part)));
     }

@@ -50,7 +50,7 @@ impl Surface {
             bind_group_layouts: &[Some(&view.layout), Some(&layout.layout)],
             immediate_size: 0,
         });
-        let constants = constants(choice.albedo);
+        let constants = constants(choice);
         let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("surface"),
             layout: Some(&pipeline_layout),
