@@ -20,7 +20,7 @@ use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
-use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, view};
+use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, shell, view};
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,6 +99,15 @@ pub enum FrameError {
         /// What to do about it.
         remedy: &'static str,
     },
+    /// A mesh has too many triangles for a shell.
+    #[error(
+        "a shell of {triangles} triangles is beyond the limit of {}: simplify the mesh, or draw it flat, without --shell",
+        shell::TRIANGLES_MAX
+    )]
+    Shell {
+        /// How many it has.
+        triangles: usize,
+    },
 }
 
 /// The passes, the field that they work on, and where their picture goes.
@@ -156,6 +165,7 @@ impl Frame {
     pub fn new(gpu: &Gpu, start: &Start, image_size: [u32; 2], target: wgpu::TextureFormat) -> Result<Self, FrameError> {
         let scene = start.scene.clone();
         check_limits(gpu, &scene, image_size)?;
+        check_shell(&scene, start.mesh.as_ref())?;
         let mut field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
         if let Some(colours) = &start.colours {
             check_texture(gpu, "an albedo image", colours.size, "scale it down")?;
@@ -271,6 +281,7 @@ impl Frame {
     pub fn set_scene(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), FrameError> {
         debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
         check_limits(gpu, scene, self.image_size)?;
+        check_shell(scene, self.mesh.as_ref())?;
         let before = std::mem::replace(&mut self.scene, scene.clone());
         if let Err(error) = self.build_surface(gpu) {
             self.scene = before;
@@ -583,6 +594,15 @@ fn check_texture(gpu: &Gpu, what: &'static str, size: [u32; 2], remedy: &'static
     if size.iter().any(|&edge| edge > limit) {
         let (limit, unit) = (u64::from(limit), "texels an axis");
         return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit, remedy });
+    }
+    Ok(())
+}
+
+/// Checks that a mesh which is drawn as a shell has no more triangles than one may have.
+fn check_shell(scene: &Scene, mesh: Option<&Mesh>) -> Result<(), FrameError> {
+    let triangles = mesh.map_or(0, Mesh::triangle_count);
+    if scene.trace.shell && triangles > shell::TRIANGLES_MAX {
+        return Err(FrameError::Shell { triangles });
     }
     Ok(())
 }

@@ -210,7 +210,7 @@ pub struct MeshBuffers {
 }
 
 impl MeshBuffers {
-    /// Makes them for a mesh as it is now; `as_shell` says whether its shell will be drawn.
+    /// Makes them for a mesh as it is now; `as_shell` says whether its shell may be drawn.
     pub fn new(gpu: &Gpu, layout: &BindingLayout, vertices: &[Vertex], indices: &[u32], as_shell: bool) -> Self {
         let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let buffer = |label, contents: &[u8], usage| {

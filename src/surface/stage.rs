@@ -8,6 +8,7 @@ use std::ops::Range;
 use super::micropolygon::{Micropolygons, Plan};
 use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
 use super::ray_map::Target;
+use super::shell;
 use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
 use crate::camera::Camera;
 use crate::field::Field;
@@ -97,7 +98,8 @@ impl Stage {
         }
         self.micropolygons = None;
         self.mesh = mesh.map(|mesh| {
-            let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, true);
+            let can_be_shell = mesh.triangle_count() <= shell::TRIANGLES_MAX;
+            let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, can_be_shell);
             Body { mesh, buffers }
         });
     }

@@ -2,7 +2,9 @@
 
 use glam::{DVec2, DVec3};
 use rilievo::camera::Camera;
+use rilievo::frame::{Frame, Start};
 use rilievo::mesh::{Mesh, Shape};
+use rilievo::modes::capture::PICTURE_FORMAT;
 use rilievo::reference::shell::{self, Tetrahedron};
 use rilievo::reference::{Addressing, HeightField};
 use rilievo::surface::shell::{inward, triangles};
@@ -93,9 +95,7 @@ fn judge(
         return None;
     }
     // Wherever it is, it has to be on the surface, and must not have dived under it before.
-    let limit = |t: &Tetrahedron, lattice: [f64; 2]| {
-        hit_height(cells, rays::steepness_around(field, lattice, cells).max(t.field[0].z * 0.0))
-    };
+    let limit = |lattice: [f64; 2]| hit_height(cells, rays::steepness_around(field, lattice, cells));
     let last = found.min(1e3);
     for tetrahedron in all {
         let Some([enter, leave]) = tetrahedron.way(from, direction) else { continue };
@@ -113,7 +113,7 @@ fn judge(
         {
             let at = tetrahedron.field_of(position);
             let gap = at.z - field.bilinear([at.x, at.y]);
-            if gap > limit(tetrahedron, [at.x, at.y]) {
+            if gap > limit([at.x, at.y]) {
                 return Some(format!("floats {gap:e} above the surface"));
             }
         }
@@ -213,4 +213,19 @@ fn the_shell_of_a_closed_shape_has_no_border_and_no_gap() {
             assert!(same.clone().all(|(other, _)| (other.normal.dot(*way) + 1.0).abs() < 0.02), "{}: {way}", shape.name());
         }
     }
+}
+
+#[test]
+fn a_mesh_of_too_many_triangles_is_refused_as_a_shell_and_drawn_flat() {
+    let Some(gpu) = gpu() else { return };
+    let field = Kind::Constant.field([16, 16], Addressing::Wrap);
+    let mesh = rilievo::mesh::shapes::sphere(0.5, [400, 200], [1.0, 1.0]);
+    assert!(mesh.triangle_count() > rilievo::surface::shell::TRIANGLES_MAX);
+    let mut scene = scene_of(&field);
+    let (channels, _) = seen(gpu, &scene, &field, Some(mesh.clone()), &look([0.0, 0.0, 1.5], [0.0; 3]).camera, [32, 24]);
+    assert!(channels.iter().any(|channel| channel.steps >= 0.0));
+    scene.trace.shell = true;
+    let start = Start::new(&scene, field.heights.clone(), Some(mesh));
+    let error = Frame::new(gpu, &start, [32, 24], PICTURE_FORMAT).err().expect("it is too large").to_string();
+    assert!(error.contains("100000") && error.contains("without --shell"), "{error}");
 }
