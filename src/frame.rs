@@ -403,6 +403,11 @@ impl Frame {
         &self.scene
     }
 
+    /// Depth over the texel's width and height: the slope of a height of 1 a texel.
+    pub fn slope_per_height(&self) -> [f32; 2] {
+        slope_per_height(&self.scene)
+    }
+
     /// Width and height of the picture, pixels.
     pub fn image_size(&self) -> [u32; 2] {
         self.image_size

@@ -20,14 +20,16 @@ pub mod base;
 pub mod bins;
 pub mod compose;
 pub mod dirty;
+pub mod noise;
 pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
+pub mod sequence;
 pub mod stamp;
 pub mod wave;
 
-use wgpu::{TextureFormat, TextureUsages};
+use wgpu::TextureUsages;
 
 use crate::gpu::{Contract, Gpu, Role, Texture};
 use crate::scene::Addressing;
@@ -50,12 +52,14 @@ macro_rules! roles {
             pub enum $role {}
             impl Role for $role {
                 const CONTRACT: Contract = Contract {
-                    name: $name, format: TextureFormat::$format, mips: $mips, content: $content, writer: $writer, readers: $readers, usage: $usage,
+                    name: $name, format: wgpu::TextureFormat::$format, mips: $mips, content: $content, writer: $writer, readers: $readers, usage: $usage,
                 };
             }
         )+
     };
 }
+
+use roles;
 
 roles! {
     /// The base with every stamp pressed into it.

@@ -3,8 +3,10 @@
 pub mod atomic;
 pub mod colour_image;
 pub mod exr_file;
+pub mod field_image;
 pub mod font;
 pub mod height_image;
+pub mod image_sequence;
 pub mod manifest;
 pub mod mesh_file;
 pub mod output_dir;

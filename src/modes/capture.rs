@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::headless::Headless;
-use super::{ModeError, progress, wait_for, wait_for_gpu};
+use super::{ModeError, export, progress, wait_for, wait_for_gpu};
 use crate::camera::Camera;
 use crate::cli::{CaptureOptions, Channel, Verbosity};
 use crate::clock::{Clock, Pace};
@@ -29,6 +29,8 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
     let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
     let scene = &start.scene;
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
+    let exports = options.exports();
+    export::check(&frame, &exports)?;
     let directory = OutputDir::create(&options.out, Owner::Capture)?;
 
     let mut clock = Clock::new(frame.step_seconds());
@@ -50,7 +52,13 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
         if let Some(index) = file_index {
             // Fewer frames than u32 can count were asked for.
             let index = index as u32;
-            let files = write_files(&gpu, &frame, &picture, &channels, &input, &directory, index)?;
+            let mut files = write_files(&gpu, &frame, &picture, &channels, &input, &directory, index)?;
+            // The field's exact heights are one file, whichever way they were asked for.
+            for name in export::write(&gpu, &frame, &exports, &directory, index)? {
+                if !files.contains(&name) {
+                    files.push(name);
+                }
+            }
             manifest.frames.push(manifest::Frame::new(index, tick.time_seconds, &camera, files));
         }
         progress.inc(1);

@@ -3,6 +3,7 @@
 pub mod adapters;
 pub mod capture;
 pub mod compare;
+pub mod export;
 pub mod headless;
 pub mod live;
 mod progress;
@@ -34,6 +35,12 @@ pub enum ModeError {
     /// The specification does not say what the scene shows.
     #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
     NoReference,
+    /// There is no such layer to export.
+    #[error("--export {export} asks for what this scene does not have: leave it out, or name a scene that has it")]
+    NoLayer {
+        /// What was asked for.
+        export: &'static str,
+    },
     /// The table does not hold against an earlier one.
     #[error(transparent)]
     Check(#[from] compare::check::CheckError),

@@ -7,7 +7,7 @@ use crate::surface::view::BALLS_MAX;
 
 use super::{
     Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace,
-    VERSION, Wave, check_text,
+    VERSION, Wave, check_text, noise, sequence,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -112,12 +112,15 @@ impl Scene {
         numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.noise.as_ref().map_or(Ok(()), noise::validate)?;
+        self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
-        validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
+        let brings_colours = self.sequence.as_ref().is_some_and(|sequence| sequence.colours.is_some());
+        validate_material(&self.material, brings_colours || matches!(self.base, Base::StillLife {}))?;
         self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
         validate_balls(&self.balls)?;
         validate_camera(&self.camera)
@@ -138,15 +141,15 @@ pub fn check_camera(eye: [f64; 3], target: [f64; 3]) -> Result<(), String> {
     Ok(())
 }
 
-fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
+pub(super) fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
     Err(SceneError::Value { key: key.into(), value: value.to_string(), allowed: allowed.to_string() })
 }
 
-fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
+pub(super) fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
     if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
 }
 
-fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
+pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }
 
@@ -298,12 +301,12 @@ fn validate_directional(key: &str, light: &DirectionalLight) -> Result<(), Scene
     number(key("turn_degrees_per_second"), light.turn_degrees_per_second, turn)
 }
 
-fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), SceneError> {
+fn validate_material(material: &Material, scene_has_colours: bool) -> Result<(), SceneError> {
     match &material.image {
         Some(path) if path.as_os_str().is_empty() => {
             return refuse("material.image", "empty", "the path of a PNG file, or left out");
         }
-        None if material.albedo == Albedo::Image && !base_has_colours => {
+        None if material.albedo == Albedo::Image && !scene_has_colours => {
             return refuse(
                 "material.albedo",
                 "image",
