@@ -9,6 +9,8 @@ mod progress;
 pub mod statistics;
 pub mod stress;
 
+use std::time::{Duration, Instant};
+
 use crate::cli::CommonOptions;
 use crate::frame::{FrameError, Start};
 use crate::gpu::readback::ReadbackError;
@@ -82,8 +84,22 @@ pub fn start(loaded: &LoadedScene) -> Start {
 /// The device was lost.
 pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Result<Vec<u8>, ModeError> {
     wait_for_gpu(gpu)?;
-    readback.take().unwrap_or_else(|| Err(ReadbackError::missing())).map_err(ModeError::from)
+    // The GPU is done, but another thread that polls the same device may be the one that runs this readback's callback, and not have
+    // come to it yet. wgpu runs every callback, so that the limit is for a bug alone.
+    let deadline = Instant::now() + CALLBACK_LIMIT;
+    loop {
+        if let Some(bytes) = readback.take() {
+            return bytes.map_err(ModeError::from);
+        }
+        if Instant::now() > deadline {
+            return Err(ReadbackError::missing().into());
+        }
+        std::thread::yield_now();
+    }
 }
+
+/// How long another thread may take to run a callback that is due. It takes microseconds, on a loaded machine milliseconds.
+const CALLBACK_LIMIT: Duration = Duration::from_secs(10);
 
 /// Waits until the GPU has done all that was submitted.
 ///
