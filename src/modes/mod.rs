@@ -6,6 +6,8 @@ pub mod compare;
 pub mod headless;
 pub mod live;
 mod progress;
+pub mod script;
+pub mod state;
 pub mod statistics;
 pub mod stress;
 
@@ -16,7 +18,9 @@ use crate::frame::{FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
 use crate::io::atomic::WriteError;
+use crate::io::journal::JournalError;
 use crate::io::scene_file::{self, LoadedScene, SceneFileError};
+use crate::io::state_file::StateFileError;
 
 /// Why a mode did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -36,6 +40,12 @@ pub enum ModeError {
     /// The specification does not say what the scene shows.
     #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
     NoReference,
+    /// A journal is unfit.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// A saved state is unfit.
+    #[error(transparent)]
+    State(#[from] StateFileError),
     /// The table does not hold against an earlier one.
     #[error(transparent)]
     Check(#[from] compare::check::CheckError),
