@@ -192,6 +192,8 @@ pub struct Wave {
     pub sponge_texels: u32,
     /// Height that a wave of amplitude 1 adds.
     pub amplitude: f32,
+    /// How it meets what lies beneath it.
+    pub blend: LayerBlend,
     /// Rain upon it, if any.
     pub rain: Option<Rain>,
     /// Posts that reflect it.
@@ -446,6 +448,7 @@ impl Default for Wave {
             boundary: Boundary::Reflecting,
             sponge_texels: 48,
             amplitude: 0.2,
+            blend: LayerBlend::Add,
             rain: None,
             obstacles: Vec::new(),
         }

@@ -3,16 +3,21 @@
 //! Every random stroke has a number, and its own generator made from the seed and that number: what a stroke looks like depends
 //! neither on the strokes before it nor on how frames cut time into pieces. A warm-up of W frames and then N more are W + N.
 
+use std::sync::Arc;
+
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
 
-use crate::clock::Tick;
+use crate::clock::{Simulation, Tick};
+use crate::field::sequence::Images;
 use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Rain, Scene, Shots};
 
 /// One thing done to the field.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Stroke {
     /// A stamp pressed into the relief.
     Press(Stamp),
@@ -27,6 +32,8 @@ pub struct Strokes {
     pub presses: Vec<Stamp>,
     /// The impulses, each with the step of the frame before which it falls: 0 is the first.
     pub splashes: Vec<(u32, Impulse)>,
+    /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
+    pub images: Option<Arc<Images>>,
 }
 
 impl Strokes {
@@ -44,8 +51,9 @@ impl Strokes {
         let mut strokes = Self::default();
         if let Some((wave, rain)) = scene.wave.as_ref().and_then(|wave| Some((wave, wave.rain.as_ref()?))) {
             let step_seconds = wave::step_seconds(wave, lattice.texel_metres);
-            for step in 0..tick.steps {
-                let impulses = rain_in_step(rain, seed, &lattice, step_seconds, tick.first_step + u64::from(step));
+            let owed = tick.owed(Simulation::Wave);
+            for step in 0..owed.steps {
+                let impulses = rain_in_step(rain, seed, &lattice, step_seconds, owed.first_step + u64::from(step));
                 strokes.splashes.extend(impulses.map(|impulse| (step, impulse)));
             }
         }
@@ -214,13 +222,18 @@ mod tests {
     fn run(seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
         let scene = scene();
         let step = wave::step_seconds(scene.wave.as_ref().unwrap(), Lattice::of_scene(&scene).texel_metres);
-        let mut clock = Clock::new(Some(step));
+        let mut clock = Clock::new([Some(step), None, None]);
         let (mut presses, mut splashes) = (Vec::new(), Vec::new());
         for _ in 0..frames {
             let tick = clock.advance(Pace::Fixed { dt_seconds });
             let strokes = Strokes::of_scene(&scene, seed, &tick);
             presses.extend(strokes.presses);
-            splashes.extend(strokes.splashes.into_iter().map(|(step, impulse)| (tick.first_step + u64::from(step), impulse)));
+            splashes.extend(
+                strokes
+                    .splashes
+                    .into_iter()
+                    .map(|(step, impulse)| (tick.owed(Simulation::Wave).first_step + u64::from(step), impulse)),
+            );
         }
         (presses, splashes)
     }

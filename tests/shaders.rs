@@ -4,7 +4,7 @@ use std::mem::{offset_of, size_of};
 
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
-use rilievo::field::compose::ComposeParams;
+use rilievo::field::compose::{ComposeLayer, ComposeParams};
 use rilievo::field::noise::{
     NoiseColumns, NoiseDunes, NoiseFractal, NoiseGear, NoiseGears, NoiseLattice, NoiseParams, NoiseScales, PATTERNS,
 };
@@ -15,7 +15,7 @@ use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
-use rilievo::scene::{Fold, PomCounts, PyramidLeaf};
+use rilievo::scene::{Fold, LayerBlend, PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
 use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::light_probe::{Lit, Matter};
@@ -200,7 +200,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
         ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
         ("Region", layout!(Region { origin, extent })),
-        ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
+        ("ComposeParams", layout!(ComposeParams { region, size, tiles_per_row, layers })),
+        ("ComposeLayer", layout!(ComposeLayer { amplitude, blend })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
         ("NoiseParams", layout!(NoiseParams { size, texel_metres, count, salt, wrap, field_metres })),
         ("NoiseLattice", layout!(NoiseLattice { scale, fraction, cell, period, slice, slice_fraction, weight, salt })),
@@ -293,6 +294,15 @@ fn the_folds_of_noise_have_the_same_numbers_on_both_sides() {
     let module = module(&["common/noise", "field/noise", "field/noise_fractal"].map(str::to_owned));
     for fold in Fold::ALL {
         assert_eq!(constant(&module, &format!("NOISE_{fold:?}").to_uppercase()), Some(*fold as u32), "{fold:?}");
+    }
+}
+
+#[test]
+fn the_blends_of_layers_have_the_same_numbers_on_both_sides() {
+    let module = module(&["common/region".to_owned(), "field/compose".to_owned()]);
+    for blend in LayerBlend::ALL {
+        let name = format!("COMPOSE_{blend:?}").to_uppercase();
+        assert_eq!(constant(&module, &name), Some(blend as u32), "{name}");
     }
 }
 

@@ -10,11 +10,14 @@ use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use wgpu::{StorageTextureAccess, TextureFormat};
 
 use super::base::hash_u32;
-use super::{LAYER, roles};
+use super::bins::BinError;
+use super::source::{Heights, Source, SourceInput, State};
+use super::{Dirty, LAYER, roles};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Contract, Gpu, Kernel, Recorder, Role, ShaderError, Texture};
 use crate::scene::{
-    Addressing, ColumnShape, Columns, Dunes, FractalNoise, GEARS_MAX, Gears, NoisePattern, OCTAVES_MAX, Scales, Scene,
+    Addressing, ColumnShape, Columns, Dunes, FractalNoise, GEARS_MAX, Gears, Layer, LayerBlend, NoisePattern, OCTAVES_MAX,
+    Scales, Scene,
 };
 
 /// Bytes a texel by design: a height out.

@@ -4,9 +4,11 @@
 
 use std::sync::Arc;
 
-use super::{LAYER, roles};
-use crate::gpu::{Contract, Gpu, Role, Texture};
-use crate::scene::Between;
+use super::bins::BinError;
+use super::source::{Heights, Source, SourceInput, State};
+use super::{Dirty, LAYER, roles};
+use crate::gpu::{Contract, Gpu, Recorder, Role, ShaderError, Texture};
+use crate::scene::{Between, Layer, LayerBlend, Scene};
 use crate::surface::albedo_image::ColourImage;
 
 /// Bytes a texel of an upload by design: a height in.

@@ -1,4 +1,5 @@
-//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out.
+//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out; journals and states
+//! both ways.
 
 pub mod atomic;
 pub mod colour_image;
@@ -7,6 +8,7 @@ pub mod field_image;
 pub mod font;
 pub mod height_image;
 pub mod image_sequence;
+pub mod journal;
 pub mod manifest;
 pub mod mesh_file;
 pub mod output_dir;
@@ -14,6 +16,7 @@ pub mod png_file;
 mod resample;
 pub mod scene_file;
 pub mod shader_folder;
+pub mod state_file;
 
 use std::io::Write as _;
 

@@ -30,8 +30,11 @@ pub fn check(frame: &Frame, exports: &[Export]) -> Result<(), ModeError> {
 fn layer(frame: &Frame, export: Export) -> Option<wgpu::Texture> {
     match export {
         Export::ReliefExr => Some(frame.field.relief.texture.clone()),
-        Export::BedExr => None,
-        Export::SourceExr(_) => None,
+        Export::BedExr => frame.bed().map(|view| view.texture().clone()),
+        Export::SourceExr(name) => {
+            let heights = frame.source(name)?.heights();
+            Some(heights.views[heights.current].texture().clone())
+        }
         _ => Some(frame.field.height.texture.clone()),
     }
 }

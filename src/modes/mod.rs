@@ -7,15 +7,23 @@ pub mod export;
 pub mod headless;
 pub mod live;
 mod progress;
+pub mod script;
+pub mod state;
 pub mod statistics;
 pub mod stress;
+
+use std::time::{Duration, Instant};
 
 use crate::cli::CommonOptions;
 use crate::frame::{FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
 use crate::io::atomic::WriteError;
+use crate::io::height_image::ImageError;
+use crate::io::image_sequence::Player;
+use crate::io::journal::JournalError;
 use crate::io::scene_file::{self, LoadedScene, SceneFileError};
+use crate::io::state_file::StateFileError;
 
 /// Why a mode did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -41,6 +49,15 @@ pub enum ModeError {
         /// What was asked for.
         export: &'static str,
     },
+    /// An image of a series is unfit.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// A journal is unfit.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// A saved state is unfit.
+    #[error(transparent)]
+    State(#[from] StateFileError),
     /// The table does not hold against an earlier one.
     #[error(transparent)]
     Check(#[from] compare::check::CheckError),
@@ -76,10 +93,19 @@ pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError>
     scene_file::load(&common.scene, &common.overrides(), common.image_size)
 }
 
-/// What a frame starts from. Makes as many heights as the field has texels: check the size against the adapter first.
-pub fn start(loaded: &LoadedScene) -> Start {
-    let (heights, colours) = loaded.layers();
-    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours)
+/// What a frame starts from, and what plays the scene's series of images, if it has one. Makes as many heights as the field has texels: check the size against the adapter first.
+///
+/// # Errors
+///
+/// The first image of its series is damaged.
+pub fn start(loaded: &LoadedScene) -> Result<(Start, Option<Player>), ModeError> {
+    let (heights, mut colours) = loaded.layers();
+    let mut player = loaded.player();
+    if let Some(player) = &mut player {
+        // Pictures of a series follow one another in a texture of the first one's size.
+        colours = player.at(0.0)?.colours.as_deref().cloned().or(colours);
+    }
+    Ok((Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours), player))
 }
 
 /// Waits for bytes on their way from the GPU.
@@ -89,8 +115,22 @@ pub fn start(loaded: &LoadedScene) -> Start {
 /// The device was lost.
 pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Result<Vec<u8>, ModeError> {
     wait_for_gpu(gpu)?;
-    readback.take().unwrap_or_else(|| Err(ReadbackError::missing())).map_err(ModeError::from)
+    // The GPU is done, but another thread that polls the same device may be the one that runs this readback's callback, and not have
+    // come to it yet. wgpu runs every callback, so that the limit is for a bug alone.
+    let deadline = Instant::now() + CALLBACK_LIMIT;
+    loop {
+        if let Some(bytes) = readback.take() {
+            return bytes.map_err(ModeError::from);
+        }
+        if Instant::now() > deadline {
+            return Err(ReadbackError::missing().into());
+        }
+        std::thread::yield_now();
+    }
 }
+
+/// How long another thread may take to run a callback that is due. It takes microseconds, on a loaded machine milliseconds.
+const CALLBACK_LIMIT: Duration = Duration::from_secs(10);
 
 /// Waits until the GPU has done all that was submitted.
 ///

@@ -345,7 +345,7 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Lod, Rain};
+    use super::super::{Boundary, Columns, Dunes, FractalNoise, Gears, Lod, Noise, NoisePattern, Rain, Scales, Sequence};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -358,6 +358,7 @@ mod tests {
                 obstacles: vec![obstacle],
                 ..Wave::default()
             }),
+            sequence: Some(Sequence { heights: "series".into(), ..Sequence::default() }),
             shots: Some(Shots::default()),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
@@ -392,14 +393,28 @@ mod tests {
                 _ => {}
             }
         }
-        let whole = serde_json::to_value(full()).unwrap();
-        let mut found = Vec::new();
-        leaves(&whole, "", &mut found);
-        assert!(found.len() > 50, "{found:?}");
-        for path in found.iter().filter(|path| *path != "/seed") {
+        let patterns = [
+            NoisePattern::Fractal(FractalNoise::default()),
+            NoisePattern::Columns(Columns::default()),
+            NoisePattern::Scales(Scales::default()),
+            NoisePattern::Gears(Gears::default()),
+            NoisePattern::Dunes(Dunes::default()),
+        ];
+        let scenes = patterns.map(|pattern| Scene { noise: Some(Noise { pattern, ..Noise::default() }), ..full() });
+        let wholes = scenes.map(|scene| serde_json::to_value(scene).unwrap());
+        let paths = wholes.iter().flat_map(|whole| {
+            let mut found = Vec::new();
+            leaves(whole, "", &mut found);
+            assert!(found.len() > 50, "{found:?}");
+            found.into_iter().map(move |path| (whole, path))
+        });
+        for (whole, path) in paths.filter(|(_, path)| path != "/seed") {
+            let path = path.as_str();
             let mut poisoned = whole.clone();
             let slot = poisoned.pointer_mut(path).unwrap();
-            *slot = if slot.is_u64() { 0.into() } else { serde_json::json!(-1e30) };
+            // There may be no waves, but not a thousand.
+            let none = if path.contains("/waves/") { 1000 } else { 0 };
+            *slot = if slot.is_u64() { none.into() } else { serde_json::json!(-1e30) };
             let scene: Scene = serde_json::from_value(poisoned).unwrap();
             let error = scene.validate().expect_err(path).to_string();
             let key = path.split('/').rfind(|part| part.parse::<usize>().is_err()).unwrap();

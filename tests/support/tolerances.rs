@@ -259,7 +259,7 @@ pub const MESH_PIXEL_SHARE: f64 = 2e-3;
 
 /// Procedural heights against their f64 reference: a place on a lattice of some 30 cells is rounded to 2⁻²⁴ of that, an octave rises
 /// by up to 3 a cell, an edge a hundredth of the field wide by 1.5 in that. Twice what was measured of any pattern.
-pub const NOISE_HEIGHT: f64 = 1e-4;
+pub const NOISE_HEIGHT: f64 = 5e-5;
 
 /// Mean of plain noise over a thousand cells: each is off by some 0.2 by chance.
 pub const NOISE_MEAN: f64 = 0.02;

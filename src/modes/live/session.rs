@@ -11,12 +11,14 @@ use super::pick::Picker;
 use super::readings::Readings;
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
-use crate::field::{self, base};
+use crate::field::stack::kinds;
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
+use crate::io::image_sequence::Player;
 use crate::io::{png_file, shader_folder};
 use crate::modes::ModeError;
 use crate::modes::capture::Picture;
+use crate::modes::script::hand_images;
 use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
 
@@ -37,7 +39,7 @@ pub enum Pacing {
 }
 
 /// Makes the start of a scene, by its name.
-pub type Load = Box<dyn Fn(&str) -> Result<Start, ModeError>>;
+pub type Load = Box<dyn Fn(&str) -> Result<(Start, Option<Player>), ModeError>>;
 
 /// See the module's documentation.
 pub struct Session {
@@ -54,6 +56,8 @@ pub struct Session {
     rig: Rig,
     start: Start,
     load: Option<Load>,
+    /// What plays the scene's series of images, if it has one.
+    player: Option<Player>,
     pacing: Pacing,
     format: wgpu::TextureFormat,
     pub(super) readings: Readings,
@@ -103,6 +107,7 @@ impl Session {
             rig,
             start,
             load: None,
+            player: None,
             pacing,
             format,
             readings,
@@ -122,6 +127,11 @@ impl Session {
         self.panel.scenes = scenes;
         self.load = Some(load);
         self
+    }
+
+    /// Plays the scene's series of images.
+    pub fn with_player(self, player: Option<Player>) -> Self {
+        Self { player, ..self }
     }
 
     /// What the window is called.
@@ -213,7 +223,7 @@ impl Session {
 
     /// Back to the start of the scene, with what the panel changed.
     fn restart(&mut self) {
-        self.start.scene = self.panel.scene.clone();
+        self.start.take_scene(&self.panel.scene);
         self.frame.reset(&self.gpu, &self.start);
         self.clock = Clock::new(self.frame.step_seconds());
         self.picker.forget();
@@ -225,23 +235,20 @@ impl Session {
         self.panel.scene.seed = seed;
         self.panel.original.seed = seed;
         self.apply_scene();
-        // An image has no seed, nor has a text.
-        if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone()).with_colours(self.start.colours.take());
-        }
         self.restart();
         self.panel.say(format!("Seed {seed}"));
     }
 
     fn choose(&mut self, index: usize) {
         let (Some((name, _)), Some(load)) = (self.panel.scenes.get(index), &self.load) else { return };
-        let made = load(name).and_then(|start| {
+        let made = load(name).and_then(|(start, player)| {
             let frame = Frame::new(&self.gpu, &start, self.frame.image_size(), self.format)?;
-            Ok((start, frame))
+            Ok((start, player, frame))
         });
         match made {
-            Ok((start, frame)) => {
+            Ok((start, player, frame)) => {
                 self.frame = frame;
+                self.player = player;
                 self.panel.choose(start.scene.clone());
                 self.rig = Rig::new(start.scene.camera.clone());
                 self.clock = Clock::new(self.frame.step_seconds());
@@ -287,7 +294,7 @@ impl Session {
         let scene = &self.panel.scene;
         let turns = scene.light.turn_degrees_per_second != 0.0
             || (self.rig.follows_scene() && scene.camera.orbit_degrees_per_second != 0.0);
-        let lives = !self.panel.paused && (scene.wave.is_some() || scene.shots.is_some() || turns);
+        let lives = !self.panel.paused && (kinds(scene).contains(&true) || scene.shots.is_some() || turns);
         let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
         lives || hand || self.picker.waits() || self.single_step || !self.taps.is_empty() || self.pacing == Pacing::Fixed
     }
@@ -301,7 +308,7 @@ impl Session {
         let valid = self.panel.scene.validate().map_err(|error| error.to_string());
         match valid.and_then(|()| self.frame.set_scene(&self.gpu, &self.panel.scene).map_err(|error| error.to_string())) {
             Ok(()) => {
-                self.clock.set_step(self.frame.step_seconds());
+                self.clock.set_steps(self.frame.step_seconds());
                 self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
             }
             Err(error) => {
@@ -332,6 +339,11 @@ impl Session {
         self.tick = self.tick(elapsed_seconds);
         let mut strokes = Strokes::of_scene(&self.panel.scene, self.panel.scene.seed, &self.tick);
         hand.into_iter().for_each(|stroke| strokes.push(stroke));
+        if let Err(error) = hand_images(&mut self.player, &self.panel.scene, &self.tick, &mut strokes) {
+            // What was shown last stays.
+            self.player = None;
+            self.panel.say_error(&error.to_string());
+        }
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
         self.shown = self.rig.camera(self.tick.time_seconds);
         let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, display: self.panel.display };
@@ -350,10 +362,10 @@ impl Session {
             self.readings.note_frame(seconds);
         }
         self.readings.time_seconds = self.tick.time_seconds;
-        self.readings.steps = self.tick.steps;
+        self.readings.steps = self.tick.owed.iter().map(|owed| owed.steps).sum();
         self.readings.image_size = self.frame.image_size();
         self.readings.field_size = self.frame.field.size;
-        self.readings.field_bytes_per_texel = field::bytes_per_texel();
+        self.readings.field_bytes_per_texel = self.frame.field_bytes_per_texel();
         self.readings.gpu_memory_bytes = self.frame.memory_bytes();
     }
 
