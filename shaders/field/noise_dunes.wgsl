@@ -16,9 +16,18 @@ struct NoiseDunes {
 // Where crests wander, in the large and in the small; how high they are; where ripples wander.
 @group(1) @binding(3) var<storage, read> lattices: array<NoiseLattice>;
 
+// How much the two sides differ where the rounded crest begins.
+const DUNE_BRINK: f32 = 0.12;
+
 // From the trough, where it is level, to the crest, where it breaks off.
 fn dune_side(q: f32) -> f32 {
     return q * q * (2.0 - q);
+}
+
+// The lower of the two sides, rounded where they meet: a crest narrower than a few texels would show them as steps.
+fn dune_crest(up: f32, down: f32) -> f32 {
+    let share = clamp(0.5 + 0.5 * (down - up) / DUNE_BRINK, 0.0, 1.0);
+    return mix(down, up, share) - DUNE_BRINK * share * (1.0 - share);
 }
 
 fn pattern(texel: vec2f) -> f32 {
@@ -27,7 +36,7 @@ fn pattern(texel: vec2f) -> f32 {
     let up = along / dunes.crest;
     let down = (1.0 - along) / (1.0 - dunes.crest);
     let height = 1.0 - dunes.variety * clamp(0.5 + noise_still(lattices[2], texel), 0.0, 1.0);
-    let dune = height * dune_side(min(up, down));
+    let dune = height * dune_side(dune_crest(up, down));
 
     let ripple_along = fract(dot(dunes.ripple_turns, texel) + dunes.ripple_phase + 0.9 * noise_still(lattices[3], texel));
     let ripple = dune_side(min(ripple_along / 0.65, (1.0 - ripple_along) / 0.35));

@@ -4,6 +4,9 @@ use super::noise::{Ground, cells_across, gradient_noise};
 use crate::field::base::hash_u32;
 use crate::scene::Dunes;
 
+/// How much the two sides of a dune differ where its rounded crest begins.
+const BRINK: f64 = 0.12;
+
 /// The height at a place in metres.
 pub fn height(dunes: &Dunes, ground: &Ground, time_seconds: f64, at: [f64; 2]) -> f64 {
     let wind = f64::from(dunes.wind_degrees).to_radians();
@@ -28,7 +31,9 @@ pub fn height(dunes: &Dunes, ground: &Ground, time_seconds: f64, at: [f64; 2]) -
     let (up, down) = (along / crest, (1.0 - along) / (1.0 - crest));
     let side = |q: f64| q * q * (2.0 - q);
     let height = 1.0 - f64::from(dunes.variety) * (0.5 + wander(ridden, 1.6 * wavelength, 2)).clamp(0.0, 1.0);
-    let dune = height * side(up.min(down));
+    // The lower of the two sides, rounded where they differ by less than the brink.
+    let apart = (down - up).abs().min(BRINK);
+    let dune = height * side(up.min(down) - (BRINK - apart).powi(2) / (4.0 * BRINK));
 
     let ripple = f64::from(dunes.ripple_metres);
     let waves = self::waves(ground, ripple, wind);

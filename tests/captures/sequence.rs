@@ -51,7 +51,10 @@ fn a_series_is_the_field_and_its_colours() {
         let read = |path: &Path| HeightImage::read(path, None).expect("it is an image");
         let shown = read(&at(&format!("long/field_{frame:05}.exr")));
         assert_eq!(shown, read(&at(&format!("d_{:03}.png", frame % 3))), "frame {frame}");
-        assert_eq!(bytes(&at("long"), &format!("field_{frame:05}.exr")), bytes(&at("long"), &format!("field_{frame:05}_sequence.exr")));
+        assert_eq!(
+            bytes(&at("long"), &format!("field_{frame:05}.exr")),
+            bytes(&at("long"), &format!("field_{frame:05}_sequence.exr"))
+        );
         // The picture in the middle has the colour of its image.
         let picture = image::open(at(&format!("long/frame_{frame:05}.png"))).expect("it is a picture").to_rgb8();
         let middle = picture.get_pixel(24, 16).0;

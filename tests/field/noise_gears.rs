@@ -79,7 +79,7 @@ fn teeth_stand_in_the_gaps_of_the_other_wheel() {
         let [one, other] = [wheels[0], wheels[1]];
         for step in 0..100_000 {
             // All about the place where the pitch circles touch.
-            let [i, j] = [step % 400, step / 400].map(|n| f64::from(n));
+            let [i, j] = [step % 400, step / 400].map(f64::from);
             let toward = [other.centre[0] - one.centre[0], other.centre[1] - one.centre[1]];
             let length = toward[0].hypot(toward[1]);
             let unit = toward.map(|side| side / length);
