@@ -39,7 +39,7 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
-    all.extend(PATTERNS.map(|pattern| ["common/noise", "field/noise", pattern].map(str::to_owned).to_vec()));
+    all.extend(PATTERNS.map(|pattern| ["field/noise", pattern].map(str::to_owned).to_vec()));
     // Parts meet only through the functions that they share by name: each with each of another kind, not all with all.
     let plain = Choice::PLAIN;
     let techniques = Technique::ALL.iter().map(|&technique| Choice { technique, ..plain });
@@ -204,7 +204,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("ComposeLayer", layout!(ComposeLayer { amplitude, blend })),
         ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
         ("NoiseParams", layout!(NoiseParams { size, texel_metres, count, salt, wrap, field_metres })),
-        ("NoiseLattice", layout!(NoiseLattice { scale, fraction, cell, period, slice, slice_fraction, weight, salt })),
+        ("NoiseLattice", layout!(NoiseLattice { scale, fraction, cell, period, slices, slice_fraction, weight, salt })),
         ("NoiseFractal", layout!(NoiseFractal { contrast, fold })),
         (
             "NoiseColumns",
@@ -291,7 +291,7 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
 
 #[test]
 fn the_folds_of_noise_have_the_same_numbers_on_both_sides() {
-    let module = module(&["common/noise", "field/noise", "field/noise_fractal"].map(str::to_owned));
+    let module = module(&["field/noise", "field/noise_fractal"].map(str::to_owned));
     for fold in Fold::ALL {
         assert_eq!(constant(&module, &format!("NOISE_{fold:?}").to_uppercase()), Some(*fold as u32), "{fold:?}");
     }

@@ -4,7 +4,7 @@
 //
 // 0 bytes in, 4 out a texel. A pattern is a part of its own (field/noise_…), which defines `fn pattern(texel: vec2f) -> f32`.
 // Time reaches it as phases and cells that Rust reduced in f64: f32 is as fine after a year as at the start.
-// Composed after common/noise.wgsl. Specification: src/reference/noise.rs.
+// Specification: src/reference/noise.rs.
 
 override NOISE_X: u32;
 override NOISE_Y: u32;
@@ -24,8 +24,8 @@ struct NoiseLattice {
     fraction: vec2f,      // where in its cell the field's upper left corner lies
     cell: vec2i,          // which cell that is
     period: vec2i,        // cells after which the lattice repeats; 0: never
-    slice: u32,           // the cell of time
-    slice_fraction: f32,  // where in it
+    slices: vec2u,        // hashes of the slices of time before and after
+    slice_fraction: f32,  // from the first of them
     weight: f32,
     salt: u32,
 }
@@ -50,49 +50,75 @@ fn noise_fade(t: vec2f) -> vec2f {
     return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
 }
 
-// How much a lattice point adds at an offset from it: its gradient is one of the twelve edges of a cube (Perlin 2002).
-fn noise_corner(hash: u32, offset: vec3f) -> f32 {
-    let edge = ((hash >> 16u) * 12u) >> 16u;
-    let axes = edge >> 2u;
-    let a = select(select(offset.x, offset.y, axes == 1u), offset.z, axes == 2u);
-    let b = select(select(offset.y, offset.z, axes == 1u), offset.x, axes == 2u);
+// C. Wellons' lowbias32 (hash-prospector, 2018). PCG's output function, which other noise here has, shifts each lane by another
+// count: lavapipe does that one lane at a time.
+fn noise_hash(x: u32) -> u32 {
+    var h = (x ^ (x >> 16u)) * 0x7feb352du;
+    h = (h ^ (h >> 15u)) * 0x846ca68bu;
+    return h ^ (h >> 16u);
+}
+
+// A number in [0, 1) for a column of things, given the hash of its row.
+fn noise_chance(column: i32, row_hash: u32) -> f32 {
+    return f32(noise_hash(bitcast<u32>(column) ^ row_hash) >> 8u) / 16777216.0;
+}
+
+// How much a lattice point adds at an offset from it: its gradient is one of the twelve edges of a cube (Perlin 2002), of which the
+// four along the slice count twice.
+fn noise_corner(point: u32, slice: u32, offset: vec3f) -> f32 {
+    let edge = ((point ^ slice) * 0x9e3779b1u) >> 28u;
+    let axes = edge & 12u;
+    let a = select(select(offset.x, offset.y, axes == 4u), offset.z, axes == 8u);
+    let b = select(select(offset.y, offset.z, axes == 4u), offset.x, axes == 8u);
     return select(-a, a, (edge & 1u) == 0u) + select(-b, b, (edge & 2u) == 0u);
 }
 
-// The four lattice points of a slice, `z` away from it.
-fn noise_slice(low: vec2i, high: vec2i, f: vec2f, fade: vec2f, z: f32, salt: u32) -> f32 {
-    let seed = hash_u32(salt);
-    let north = hash_u32(bitcast<u32>(low.y) ^ seed);
-    let south = hash_u32(bitcast<u32>(high.y) ^ seed);
-    let nw = noise_corner(hash_u32(bitcast<u32>(low.x) ^ north), vec3f(f, z));
-    let ne = noise_corner(hash_u32(bitcast<u32>(high.x) ^ north), vec3f(f.x - 1.0, f.y, z));
-    let sw = noise_corner(hash_u32(bitcast<u32>(low.x) ^ south), vec3f(f.x, f.y - 1.0, z));
-    let se = noise_corner(hash_u32(bitcast<u32>(high.x) ^ south), vec3f(f - 1.0, z));
-    return mix(mix(nw, ne, fade.x), mix(sw, se, fade.x), fade.y);
+// Where a texel lies on a lattice.
+struct NoisePlace {
+    points: vec4u,        // hashes of the four lattice points about it: nw, ne, sw, se
+    f: vec2f,             // from the first of them, cells
+    fade: vec2f,
+}
+
+fn noise_place(lattice: NoiseLattice, texel: vec2f) -> NoisePlace {
+    let position = texel * lattice.scale + lattice.fraction;
+    let cell = floor(position);
+    let low = noise_address(vec2i(cell) + lattice.cell, lattice.period);
+    let high = noise_address(vec2i(cell) + lattice.cell + 1, lattice.period);
+    let north = noise_hash(bitcast<u32>(low.y) ^ lattice.salt);
+    let south = noise_hash(bitcast<u32>(high.y) ^ lattice.salt);
+    let points = vec4u(
+        noise_hash(bitcast<u32>(low.x) ^ north),
+        noise_hash(bitcast<u32>(high.x) ^ north),
+        noise_hash(bitcast<u32>(low.x) ^ south),
+        noise_hash(bitcast<u32>(high.x) ^ south),
+    );
+    let f = position - cell;
+    return NoisePlace(points, f, noise_fade(f));
+}
+
+// What its four lattice points of one slice add, `z` away from that.
+fn noise_slice(place: NoisePlace, slice: u32, z: f32) -> f32 {
+    let f = place.f;
+    let nw = noise_corner(place.points.x, slice, vec3f(f, z));
+    let ne = noise_corner(place.points.y, slice, vec3f(f.x - 1.0, f.y, z));
+    let sw = noise_corner(place.points.z, slice, vec3f(f.x, f.y - 1.0, z));
+    let se = noise_corner(place.points.w, slice, vec3f(f - 1.0, z));
+    return mix(mix(nw, ne, place.fade.x), mix(sw, se, place.fade.x), place.fade.y);
 }
 
 // Gradient noise that changes in time, −1.04 to 1.04.
 fn noise_moving(lattice: NoiseLattice, texel: vec2f) -> f32 {
-    let position = texel * lattice.scale + lattice.fraction;
-    let cell = floor(position);
-    let f = position - cell;
-    let low = noise_address(vec2i(cell) + lattice.cell, lattice.period);
-    let high = noise_address(vec2i(cell) + lattice.cell + 1, lattice.period);
-    let fade = noise_fade(f);
+    let place = noise_place(lattice, texel);
     let z = lattice.slice_fraction;
-    let before = noise_slice(low, high, f, fade, z, lattice.slice ^ lattice.salt);
-    let after = noise_slice(low, high, f, fade, z - 1.0, (lattice.slice + 1u) ^ lattice.salt);
+    let before = noise_slice(place, lattice.slices.x, z);
+    let after = noise_slice(place, lattice.slices.y, z - 1.0);
     return mix(before, after, noise_fade(vec2f(z)).x);
 }
 
 // A slice of it that stays, −1 to 1.
 fn noise_still(lattice: NoiseLattice, texel: vec2f) -> f32 {
-    let position = texel * lattice.scale + lattice.fraction;
-    let cell = floor(position);
-    let f = position - cell;
-    let low = noise_address(vec2i(cell) + lattice.cell, lattice.period);
-    let high = noise_address(vec2i(cell) + lattice.cell + 1, lattice.period);
-    return noise_slice(low, high, f, noise_fade(f), 0.0, lattice.slice ^ lattice.salt);
+    return noise_slice(noise_place(lattice, texel), lattice.slices.x, 0.0);
 }
 
 // A smooth pulse of a phase in turns: 1 at whole turns, 0 at halves.

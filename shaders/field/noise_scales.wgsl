@@ -22,20 +22,25 @@ fn pattern(texel: vec2f) -> f32 {
     var highest = 0.0;
     for (var row = first_row; row < first_row + 4; row++) {
         let aside = select(0.0, 0.5, (row & 1) != 0);
+        let row_hash = noise_hash(bitcast<u32>(scale_home(row, scales.period.y)) ^ params.salt);
         let first = i32(floor(at.x / scales.pitch.x - aside));
         for (var column = first; column < first + 2; column++) {
             let along = vec2f(f32(column) + aside, f32(row));
-            highest = max(highest, scale_height(at - along * scales.pitch, along, vec2i(column, row)));
+            highest = max(highest, scale_height(at - along * scales.pitch, along, noise_chance(scale_home(column, scales.period.x), row_hash)));
         }
     }
     return highest;
 }
 
+// The same scale of the period that it is told by, an axis.
+fn scale_home(index: i32, period: i32) -> i32 {
+    let remainder = index % max(period, 1);
+    return select(index, select(remainder, remainder + period, remainder < 0), period > 0);
+}
+
 // The height of one scale at an offset from its centre: it rises to its free edge, toward larger v.
-fn scale_height(offset: vec2f, along: vec2f, scale: vec2i) -> f32 {
-    let remainder = scale % max(scales.period, vec2i(1));
-    let home = select(scale, select(remainder, remainder + scales.period, remainder < vec2i(0)), scales.period > vec2i(0));
-    let turns = dot(scales.turns, along) + scales.disorder * hash_cell(home, params.salt) + scales.phase;
+fn scale_height(offset: vec2f, along: vec2f, chance: f32) -> f32 {
+    let turns = dot(scales.turns, along) + scales.disorder * chance + scales.phase;
     let d = offset / scales.radius;
     let rise = 0.5 * (d.y + 1.0) * (1.0 - scales.lift * noise_pulse(turns));
     let ridge = 1.0 - noise_edge(abs(d.x), 0.22);

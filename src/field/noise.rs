@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use wgpu::{StorageTextureAccess, TextureFormat};
 
-use super::base::hash_u32;
 use super::bins::BinError;
 use super::source::{Heights, Source, SourceInput, State};
 use super::{Dirty, LAYER, roles};
@@ -61,14 +60,16 @@ pub struct NoiseLattice {
     pub cell: [i32; 2],
     /// Cells after which the lattice repeats; 0: never.
     pub period: [i32; 2],
-    /// The cell of time.
-    pub slice: u32,
-    /// Where in it.
+    /// Hashes of the slices of time before and after.
+    pub slices: [u32; 2],
+    /// From the first of them, in distances from slice to slice.
     pub slice_fraction: f32,
     /// What the octave is multiplied by.
     pub weight: f32,
     /// Its seed.
     pub salt: u32,
+    /// Zero.
+    pub pad: u32,
 }
 
 /// Of [`FractalNoise`].
@@ -204,7 +205,14 @@ pub struct Instant {
 
 /// The seed in 32 bits.
 pub fn salt(seed: u64) -> u32 {
-    hash_u32(seed as u32 ^ hash_u32((seed >> 32) as u32))
+    hash(seed as u32 ^ hash((seed >> 32) as u32))
+}
+
+/// C. Wellons' lowbias32 (hash-prospector, 2018); the twin of the shader's `noise_hash`.
+pub fn hash(x: u32) -> u32 {
+    let h = (x ^ x >> 16).wrapping_mul(0x7feb_352d);
+    let h = (h ^ h >> 15).wrapping_mul(0x846c_a68b);
+    h ^ h >> 16
 }
 
 /// The field under a pattern.
@@ -257,15 +265,17 @@ impl Ground {
             // The same cell of another period; else far cells are counted in 32 bits, as their hash is.
             if self.wraps() { corner.rem_euclid(cells[axis]) } else { corner }
         });
+        let salt = hash(self.salt.wrapping_add(which));
         NoiseLattice {
             scale: [0, 1].map(|axis| (cells[axis] / f64::from(self.size[axis])) as f32),
             fraction: corner.map(|corner| (corner - corner.floor()) as f32),
             cell: corner.map(|corner| corner.floor() as i64 as i32),
             period: if self.wraps() { cells.map(|count| count as i32) } else { [0; 2] },
-            slice: slices.floor() as i64 as u32,
+            slices: [0, 1].map(|after| hash((slices.floor() as i64 as u32).wrapping_add(after) ^ !salt)),
             slice_fraction: (slices - slices.floor()) as f32,
             weight: weight as f32,
-            salt: hash_u32(self.salt.wrapping_add(which)),
+            salt,
+            pad: 0,
         }
     }
 
@@ -500,9 +510,7 @@ impl Patterns {
         let bindings = [Binding::Uniform, storage, Binding::Uniform, Binding::Read];
         let layout = BindingLayout::new(gpu, "noise", wgpu::ShaderStages::COMPUTE, &bindings);
         let constants = [("NOISE_X", f64::from(Self::WORKGROUP[0])), ("NOISE_Y", f64::from(Self::WORKGROUP[1]))];
-        let kernel = |part: &str| {
-            Kernel::new(gpu, "noise", &["common/noise", "field/noise", part], "noise", &constants, &[None, Some(&layout)])
-        };
+        let kernel = |part: &str| Kernel::new(gpu, "noise", &["field/noise", part], "noise", &constants, &[None, Some(&layout)]);
         let [a, b, c, d, e] = PATTERNS.map(kernel);
         Ok(Self { kernels: [a?, b?, c?, d?, e?], layout })
     }

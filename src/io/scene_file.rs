@@ -16,7 +16,7 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 13] = [
+pub const EMBEDDED: [(&str, &str); 14] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -30,6 +30,7 @@ pub const EMBEDDED: [(&str, &str); 13] = [
     ("planet", include_str!("../../scenes/planet.toml")),
     ("columns", include_str!("../../scenes/columns.toml")),
     ("dunes", include_str!("../../scenes/dunes.toml")),
+    ("clockwork", include_str!("../../scenes/clockwork.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.

@@ -3,8 +3,8 @@
 //! Time is f64 here and used as it stands: nothing is reduced, no phase is carried.
 
 use super::{noise_columns, noise_dunes, noise_fractal, noise_gears, noise_scales};
-use crate::field::base::{hash_cell, hash_u32};
 pub use crate::field::noise::Ground;
+use crate::field::noise::hash;
 use crate::scene::NoisePattern;
 
 /// The centre of a texel, metres from the upper left corner.
@@ -46,16 +46,16 @@ pub fn gradient_noise(at: [f64; 3], period: Option<[i64; 2]>, salt: u32) -> f64 
         let point = [0, 1, 2].map(|axis| cell[axis] as i64 + bit[axis] as i64);
         let [x, y] = period.map_or([point[0], point[1]], |period| [0, 1].map(|axis| point[axis].rem_euclid(period[axis])));
         // Cells are counted in 32 bits.
-        let hash = hash_u32(x as u32 ^ hash_u32(y as u32 ^ hash_u32(point[2] as u32 ^ salt)));
+        let hash = hash(x as u32 ^ hash(y as u32 ^ salt)) ^ hash(point[2] as u32 ^ !salt);
         sum += weight * gradient(hash, [0, 1, 2].map(|axis| inside[axis] - bit[axis]));
     }
     sum
 }
 
-/// One of the twelve edges of a cube, times an offset.
+/// One of the twelve edges of a cube, of which four count twice, times an offset.
 fn gradient(hash: u32, [x, y, z]: [f64; 3]) -> f64 {
-    let edge = u64::from(hash >> 16) * 12 / 65536;
-    let [a, b] = [[x, y], [y, z], [z, x]][edge as usize / 4];
+    let edge = hash.wrapping_mul(0x9e37_79b1) >> 28;
+    let [a, b] = [[x, y], [y, z], [z, x], [x, y]][edge as usize / 4];
     (if edge % 2 == 0 { a } else { -a }) + (if edge / 2 % 2 == 0 { b } else { -b })
 }
 
@@ -113,6 +113,7 @@ impl Rows {
     pub fn turns(&self, ground: &Ground, thing: [i64; 2], along: [f64; 2], waves: [i32; 2], disorder: f32) -> f64 {
         let home = self.period.map_or(thing, |period| [0, 1].map(|axis| thing[axis].rem_euclid(period[axis])));
         let waves: f64 = (0..2).map(|axis| f64::from(waves[axis]) * along[axis] * self.pitch[axis] / ground.metres()[axis]).sum();
-        waves + f64::from(disorder) * hash_cell(home.map(|index| index as i32), ground.salt)
+        let chance = f64::from(hash(home[0] as u32 ^ hash(home[1] as u32 ^ ground.salt)) >> 8) / f64::from(1 << 24);
+        waves + f64::from(disorder) * chance
     }
 }

@@ -1,7 +1,7 @@
 //! Dunes that travel. Specification of `shaders/field/noise_dunes.wgsl`.
 
 use super::noise::{Ground, cells_across, gradient_noise};
-use crate::field::base::hash_u32;
+use crate::field::noise::hash;
 use crate::scene::Dunes;
 
 /// How much the two sides of a dune differ where its rounded crest begins.
@@ -19,7 +19,7 @@ pub fn height(dunes: &Dunes, ground: &Ground, time_seconds: f64, at: [f64; 2]) -
         let cells = cells_across(ground, metres);
         let [x, y] = [0, 1].map(|axis| at[axis] * cells[axis] / ground.metres()[axis]);
         let period = ground.wraps().then(|| cells.map(|count| count as i64));
-        gradient_noise([x, y, 0.0], period, hash_u32(ground.salt.wrapping_add(which)))
+        gradient_noise([x, y, 0.0], period, hash(ground.salt.wrapping_add(which)))
     };
 
     let waves = waves(ground, wavelength, wind);

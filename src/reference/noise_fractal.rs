@@ -1,7 +1,7 @@
 //! Octaves of gradient noise, plain, billowing or ridged. Specification of `shaders/field/noise_fractal.wgsl`.
 
 use super::noise::{Ground, cells_across, gradient_noise};
-use crate::field::base::hash_u32;
+use crate::field::noise::hash;
 use crate::scene::{Fold, FractalNoise};
 
 /// The height at a place in metres.
@@ -16,7 +16,7 @@ pub fn height(fractal: &FractalNoise, ground: &Ground, time_seconds: f64, at: [f
         });
         let z = time_seconds * f64::from(fractal.evolution_per_second) * fineness.powf(2.0 / 3.0);
         let period = ground.wraps().then(|| cells.map(|count| count as i64));
-        let n = gradient_noise([x, y, z], period, hash_u32(ground.salt.wrapping_add(octave)));
+        let n = gradient_noise([x, y, z], period, hash(ground.salt.wrapping_add(octave)));
         weights += weight;
         sum += weight
             * match fractal.fold {

@@ -66,7 +66,8 @@ fn the_wind_drives_sand_up_the_gentle_side() {
     let pattern = NoisePattern::Dunes(dunes);
     let row: Vec<f64> = (0..400).map(|x| noise::height(&pattern, &field, 0.0, x, 0)).collect();
     let rising = (0..400).filter(|&x| row[(x + 1) % 400] > row[x]).count();
-    assert!((318..=322).contains(&rising), "{rising} of 400 texels rise");
+    // The rounding of a crest begins where the sides differ by 0.12: a fiftieth of a wavelength before it, four texels, of each of two.
+    assert!((312..=321).contains(&rising), "{rising} of 400 texels rise");
     let highest = row.iter().copied().fold(0.0, f64::max);
     assert!(highest > 0.95 && row.iter().copied().fold(1.0, f64::min) < 0.001, "{highest}");
 }

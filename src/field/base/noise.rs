@@ -10,7 +10,7 @@ pub(super) fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
 }
 
 /// PCG's output function (O'Neill 2014); the twin of `hash_u32` in `shaders/common/noise.wgsl`.
-pub(crate) fn hash_u32(x: u32) -> u32 {
+pub(super) fn hash_u32(x: u32) -> u32 {
     let state = x.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
     (word >> 22) ^ word
