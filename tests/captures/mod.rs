@@ -5,6 +5,7 @@ mod export;
 mod flight;
 mod goldens;
 mod positions;
+mod resumed;
 mod sequence;
 mod techniques;
 mod views;
