@@ -41,8 +41,7 @@ fn pattern(texel: vec2f) -> f32 {
 
     // In a period the lower left of an odd row's columns are half a pitch farther along u.
     let along = vec2f(column) + vec2f(select(0.0, 0.5, is_odd), 0.0);
-    let remainder = column % max(columns.period, vec2i(1));
-    let home = select(column, select(remainder, remainder + columns.period, remainder < vec2i(0)), columns.period > vec2i(0));
+    let home = noise_home(column, columns.period);
     let turns = dot(columns.turns, along) + columns.disorder * noise_chance(home.x, noise_hash(bitcast<u32>(home.y) ^ params.salt)) + columns.phase;
     let top = mix(columns.low, columns.high, noise_pulse(turns));
     return mix(columns.ground, top, noise_edge(inside, columns.edge));

@@ -22,20 +22,17 @@ fn pattern(texel: vec2f) -> f32 {
     var highest = 0.0;
     for (var row = first_row; row < first_row + 4; row++) {
         let aside = select(0.0, 0.5, (row & 1) != 0);
-        let row_hash = noise_hash(bitcast<u32>(scale_home(row, scales.period.y)) ^ params.salt);
-        let first = i32(floor(at.x / scales.pitch.x - aside));
-        for (var column = first; column < first + 2; column++) {
-            let along = vec2f(f32(column) + aside, f32(row));
-            highest = max(highest, scale_height(at - along * scales.pitch, along, noise_chance(scale_home(column, scales.period.x), row_hash)));
-        }
+        let first = vec2i(i32(floor(at.x / scales.pitch.x - aside)), row);
+        let low = noise_home(first, scales.period);
+        let high = noise_home(first + vec2i(1, 0), scales.period);
+        let row_hash = noise_hash(bitcast<u32>(low.y) ^ params.salt);
+        let along = vec2f(first) + vec2f(aside, 0.0);
+        let left = scale_height(at - along * scales.pitch, along, noise_chance(low.x, row_hash));
+        let next = along + vec2f(1.0, 0.0);
+        let right = scale_height(at - next * scales.pitch, next, noise_chance(high.x, row_hash));
+        highest = max(highest, max(left, right));
     }
     return highest;
-}
-
-// The same scale of the period that it is told by, an axis.
-fn scale_home(index: i32, period: i32) -> i32 {
-    let remainder = index % max(period, 1);
-    return select(index, select(remainder, remainder + period, remainder < 0), period > 0);
 }
 
 // The height of one scale at an offset from its centre: it rises to its free edge, toward larger v.

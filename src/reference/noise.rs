@@ -56,7 +56,7 @@ pub fn gradient_noise(at: [f64; 3], period: Option<[i64; 2]>, salt: u32) -> f64 
 fn gradient(hash: u32, [x, y, z]: [f64; 3]) -> f64 {
     let edge = hash.wrapping_mul(0x9e37_79b1) >> 28;
     let [a, b] = [[x, y], [y, z], [z, x], [x, y]][edge as usize / 4];
-    (if edge % 2 == 0 { a } else { -a }) + (if edge / 2 % 2 == 0 { b } else { -b })
+    (if edge & 1 == 0 { a } else { -a }) + (if edge & 2 == 0 { b } else { -b })
 }
 
 /// A smooth pulse of a phase in turns: 1 at whole turns, 0 at halves.
