@@ -49,7 +49,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --albedo c.png --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --light-angle 2.5 --adapter llvm --backend gl -v \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --lod-exact off --light-angle 2.5 --adapter llvm --backend gl -v \
          --mesh torus --mesh-triangles 5000 --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -70,6 +70,7 @@ fn values_arrive() {
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
             lod: Some(Some(2.5)),
+            lod_keep_exact: Some(false),
             shading: None,
             samples: Some([4, 20]),
             pom_counts: Some(PomCounts::Texels),
@@ -165,6 +166,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("level-cap", "-1 1.5 32 x"),
         ("fov", "0 -45 180 nan inf x"),
         ("lod", "-1 17 nan on x"),
+        ("lod-exact", "1 yes x"),
         ("light-angle", "0 -1 16 nan inf x"),
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),

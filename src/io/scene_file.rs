@@ -81,6 +81,8 @@ pub struct SceneOverrides {
     pub shadow: Option<Shadow>,
     /// Level of detail from this mip level on; `Some(None)` is off.
     pub lod: Option<Option<f32>>,
+    /// Whether `exact` stays exact under level of detail.
+    pub lod_keep_exact: Option<bool>,
     /// What light does to it.
     pub shading: Option<Shading>,
     /// Fewest and most samples of a ray, of every technique that takes samples.
@@ -372,6 +374,9 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     }
     if let Some(threshold) = overrides.lod {
         scene.lod.threshold = threshold;
+    }
+    if let Some(keep_exact) = overrides.lod_keep_exact {
+        scene.lod.keep_exact = keep_exact;
     }
     if let Some(shading) = overrides.shading {
         scene.material.model = shading;

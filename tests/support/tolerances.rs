@@ -141,10 +141,6 @@ pub fn filtered_height(slope: f64) -> f64 {
 /// smooth fields: the project's bar. There a sample only just misses the surface by rounding, and the next one hits.
 pub const TECHNIQUE_OFF_SHARE: f64 = 1e-4;
 
-/// The same on white noise, spikes and steps, where the position's own rounding is height, and a segment of `pom` 40 cells long
-/// multiplies it: twice the 2.3e-3 that was measured there; the others have a tenth of it.
-pub const TECHNIQUE_OFF_SHARE_ROUGH: f64 = 5e-3;
-
 /// Mean distance of `pyramid` from the exact hit on waves, cells: with columns, and refined. Half as much again as measured.
 pub const PYRAMID_WAVES: [f64; 2] = [0.5, 0.055];
 
