@@ -50,3 +50,8 @@ fn gas_index(cell: vec2i) -> u32 {
 fn gas_open(cell: vec2i) -> vec2f {
     return select(vec2f(0.0), vec2f(1.0), (gas.periodic == vec2i(1)) | ((cell > vec2i(0)) & (cell < gas.size)));
 }
+
+// Decided on the bits: compilers assume that there is nothing else.
+fn gas_finite(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
+}

@@ -4,6 +4,7 @@
 //   carried   vec4f  read   leading velocity (m/s, at the faces), density, dye (at the centre)
 //   ahead     vec4f  write, then read   the same after a semi-Lagrangian step
 //   limited   vec4f  write  the same corrected and limited
+//   activity  u32    write  whether anything is no number: the limiter would swallow it
 //
 // The first kernel reads 24 bytes a cell and writes 16, the second reads 40 and writes 16. Specification:
 // src/reference/gas_advect.rs. Composed after common/gas.wgsl.
@@ -13,6 +14,9 @@
 @group(1) @binding(4) var<storage, read_write> ahead_out: array<vec4f>;
 @group(1) @binding(4) var<storage, read> ahead: array<vec4f>;
 @group(1) @binding(5) var<storage, read_write> limited: array<vec4f>;
+@group(1) @binding(5) var<storage, read_write> activity: array<atomic<u32>>;
+
+override GAS_POISON: u32;
 
 // Where what a cell holds stands, from the cell's north-western corner.
 const GAS_WEST = vec2f(0.0, 0.5);
@@ -115,6 +119,11 @@ fn gas_ahead(
     if any(cell >= gas.size) {
         return;
     }
+    let own = carried[gas_index(cell)];
+    let speed = velocity[gas_index(cell)];
+    if !(gas_finite(own.x) && gas_finite(own.y) && gas_finite(own.z) && gas_finite(own.w) && gas_finite(speed.x) && gas_finite(speed.y)) {
+        atomicStore(&activity[GAS_POISON], 1u);
+    }
     let flows = gas_flows(cell);
     let u = gas_stencil(cell, gas_follow(cell, GAS_WEST, flows.west, -gas.courant) - GAS_WEST);
     let v = gas_stencil(cell, gas_follow(cell, GAS_NORTH, flows.north, -gas.courant) - GAS_NORTH);
@@ -162,11 +171,11 @@ fn gas_limited(
 
     let from_west = west_corners(gas_stencil(cell, gas_follow(cell, GAS_WEST, flows.west, -gas.courant) - GAS_WEST));
     let from_north = north_corners(gas_stencil(cell, gas_follow(cell, GAS_NORTH, flows.north, -gas.courant) - GAS_NORTH));
-    let from = gas_stencil(cell, gas_follow(cell, GAS_CENTRE, flows.centre, -gas.courant) - GAS_CENTRE);
-    let a = carried[gas_index(from.cells[0])].zw;
-    let b = carried[gas_index(from.cells[1])].zw;
-    let c = carried[gas_index(from.cells[2])].zw;
-    let d = carried[gas_index(from.cells[3])].zw;
+    let origin = gas_stencil(cell, gas_follow(cell, GAS_CENTRE, flows.centre, -gas.courant) - GAS_CENTRE);
+    let a = carried[gas_index(origin.cells[0])].zw;
+    let b = carried[gas_index(origin.cells[1])].zw;
+    let c = carried[gas_index(origin.cells[2])].zw;
+    let d = carried[gas_index(origin.cells[3])].zw;
     let low = vec4f(lowest(from_west), lowest(from_north), min(min(a, b), min(c, d)));
     let high = vec4f(highest(from_west), highest(from_north), max(max(a, b), max(c, d)));
     limited[index] = clamp(corrected, low, high) * vec4f(gas_open(cell), 1.0, 1.0);

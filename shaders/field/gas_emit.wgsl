@@ -17,8 +17,8 @@ struct GasPuff {
 // A puff as a tile sees it.
 struct GasMember {
     centre: vec2f,             // cells from the tile's first one
-    reach: f32,                // cells
-    puff: u32,                 // in `puffs`
+    radius: f32,               // cells, and half of one for the faces
+    disc: u32,                 // in `puffs`
 }
 
 struct GasEmitTile {
@@ -73,7 +73,7 @@ fn gas_emit(
     var gain = vec2f(0.0);
     for (var i = tile.first; i < tile.first + tile.count; i++) {
         let member = members[i];
-        let puff = puffs[member.puff];
+        let puff = puffs[member.disc];
         let away = vec2f(local.xy) - member.centre;
         let west = away - vec2f(0.5, 0.0);
         let north = away - vec2f(0.0, 0.5);

@@ -46,10 +46,6 @@ fn gas_confinement(ends: vec2f, before: vec2f, after: vec2f) -> f32 {
     return gas.confinement * 0.5 * (ends.x + ends.y) * along / steep;
 }
 
-fn gas_finite(value: f32) -> bool {
-    return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
-}
-
 @compute @workgroup_size(GAS_TILE, GAS_TILE)
 fn gas_force(
     @builtin(workgroup_id) workgroup: vec3u,

@@ -16,7 +16,8 @@ override GAS_COARSENING: i32;
 @group(1) @binding(5) var cover: texture_storage_2d<rgba16float, write>;
 
 // Density, dye, vorticity, velocity along u, all at a cell's centre; a wall turns nothing.
-fn shown_of(cell: vec2i) -> vec4f {
+fn shown_of(at: vec2i) -> vec4f {
+    let cell = gas_address(at);
     let north_west = velocity[gas_index(cell)] * gas_open(cell);
     let east = cell + vec2i(1, 0);
     let south = cell + vec2i(0, 1);

@@ -12,7 +12,7 @@
 //! | advect: ahead | 24 | 16 |
 //! | advect: correct and limit | 40 | 16 |
 //! | force | 16 | 24 |
-//! | project: three V-cycles | 87 | 71 |
+//! | project: three V-cycles | 93 | 65 |
 //! | show, where a cell is a texel | 24 | 12 |
 //!
 //! Together 378 if puffs touch every tile, 330 if none: [`CELL_BYTES`]. Halos are not counted.
@@ -62,9 +62,16 @@ impl Role {
     /// Each of them.
     pub const ALL: [Self; 3] = [Self(0), Self(1), Self(2)];
 
-    /// The role after so many steps.
-    pub fn after(steps: u64) -> Self {
-        Self((2 * (steps % 3) % 3) as usize)
+    /// The role after so many steps more.
+    #[must_use]
+    pub const fn after(self, steps: u64) -> Self {
+        Self((self.0 + 2 * (steps % 3) as usize) % 3)
+    }
+
+    /// The role so many steps ago.
+    #[must_use]
+    pub const fn before(self, steps: u64) -> Self {
+        Self((self.0 + (steps % 3) as usize) % 3)
     }
 
     /// Where the state stands.
@@ -264,8 +271,8 @@ impl Buffers {
         gpu.queue.write_buffer(&self.activity, 0, bytemuck::cast_slice(&awake));
     }
 
-    /// The same from bytes as they were read back; pressures start at none.
-    pub fn write_raw(&self, gpu: &Gpu, velocity: &[u8], carried: &[u8]) {
+    /// The same from bytes; pressures start at none.
+    fn write_raw(&self, gpu: &Gpu, velocity: &[u8], carried: &[u8]) {
         self.velocity.iter().for_each(|buffer| gpu.queue.write_buffer(buffer, 0, velocity));
         self.carried.iter().for_each(|buffer| gpu.queue.write_buffer(buffer, 0, carried));
         for buffer in [&self.p[0], &self.b[0]] {
@@ -317,8 +324,11 @@ pub struct GasSet {
     project: GasProjectSet,
     of_role: Vec<RoleSet>,
     coarsening: u32,
+    role: Role,
     /// Steps that were recorded since the start.
     steps: u64,
+    /// Whether the states but the current one are out of date: it was read from a file.
+    resumes: bool,
     /// Whether everything is to be shown, not active tiles alone.
     show_everything: bool,
     word: Word,
@@ -383,7 +393,9 @@ impl Gas {
             project: self.project.bind(gpu, &buffers),
             of_role: of_role.into(),
             coarsening,
+            role: Role(0),
             steps: 0,
+            resumes: false,
             show_everything: true,
             word: Word::default(),
             buffers,
@@ -406,6 +418,9 @@ impl Gas {
         set.listen();
         if set.word.stopped_at.is_some() {
             return Ok(false);
+        }
+        if set.resumes {
+            set.spread(recorder.encoder);
         }
         let falls = self.emit.prepare(recorder.gpu, &set.buffers, &mut set.emit, emissions)?;
         if !falls.is_empty() {
@@ -448,6 +463,7 @@ impl Gas {
         });
         recorder.compute("gas project", |pass| self.project.record(pass, &set.project, &of_role.project, dispatches));
         set.steps += 1;
+        set.role = set.role.after(1);
         let next = &set.of_role[set.role().start()].show;
         recorder.compute("gas show", |pass| self.show.record(pass, next, dispatches));
     }
@@ -456,7 +472,7 @@ impl Gas {
 impl GasSet {
     /// Which of the states is current.
     pub fn role(&self) -> Role {
-        Role::after(self.steps)
+        self.role
     }
 
     /// Steps that were recorded since the start.
@@ -467,14 +483,27 @@ impl GasSet {
     /// Starts anew from a state.
     pub fn reset(&mut self, gpu: &Gpu, state: &State) {
         self.buffers.write(gpu, state);
-        self.begin(0);
+        (self.steps, self.resumes, self.show_everything) = (0, false, true);
+        self.word = Word::default();
     }
 
-    /// Forgets what was known, after so many steps.
-    pub fn begin(&mut self, steps: u64) {
-        self.steps = steps;
-        self.show_everything = true;
+    /// Goes on, after so many steps, from the state that was written over the current one.
+    pub fn resume(&mut self, steps: u64) {
+        (self.steps, self.resumes, self.show_everything) = (steps, true, false);
         self.word = Word { touched_at: steps, ..Word::default() };
+    }
+
+    /// Puts the states that wait for their role into the current one, as they are wherever the gas is at rest.
+    fn spread(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let (buffers, start) = (&self.buffers, self.role.start());
+        for other in [self.role.between(), self.role.last()] {
+            for of in [&buffers.velocity, &buffers.carried] {
+                encoder.copy_buffer_to_buffer(&of[start], 0, &of[other], 0, of[start].size());
+            }
+        }
+        encoder.clear_buffer(&buffers.p[0], 0, None);
+        encoder.clear_buffer(&buffers.b[0], 0, None);
+        self.resumes = false;
     }
 
     /// Takes over other physics: the gas goes on as it is, and none of it is still any more.
@@ -538,6 +567,7 @@ impl GasSet {
             // Its start is the last good state.
             let stopped = u64::from(word(gas_activity::STOPPED));
             self.word.stopped_at = Some(stopped);
+            self.role = self.role.before(self.steps + 1 - stopped);
             self.steps = stopped - 1;
         }
     }

@@ -3,6 +3,7 @@
 //! Shader: `shaders/field/gas_emit.wgsl`. Specification: [`crate::reference::gas_emit`].
 
 use bytemuck::{Pod, Zeroable};
+use serde::{Deserialize, Serialize};
 
 use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use super::gas::{Buffers, Role, TILE, tile_constants};
@@ -15,7 +16,8 @@ use crate::reference::gas_emit::Emission;
 pub const CELL_BYTES: u64 = 48;
 
 /// What a particle or a hand emits into the gas at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Puff {
     /// Its middle, lattice coordinates of the field.
     pub centre: [f32; 2],
@@ -34,17 +36,21 @@ impl Puff {
     pub const MAX_RADIUS: f64 = 128.0;
 
     /// The same in cells of a grid, each of which covers `coarsening` texels along an axis and is `cell_metres` wide. None where
-    /// something of it is no number.
+    /// something of it is no number, or its middle lies beyond a wall.
     pub fn emission(&self, grid: &Grid, coarsening: u32, cell_metres: f64) -> Option<Emission> {
         let numbers = self.centre.iter().chain(&self.mass).chain(&self.velocity).chain([&self.radius, &self.spin]);
         if !numbers.into_iter().all(|number| number.is_finite()) {
+            return None;
+        }
+        let centre = self.centre.map(|along| (f64::from(along) + 0.5) / f64::from(coarsening));
+        if (0..2).any(|axis| !grid.periodic[axis] && !(0.0..=grid.size[axis] as f64).contains(&centre[axis])) {
             return None;
         }
         // It must not overlap its own image where the grid repeats, nor slip between the centres of cells.
         let fits = (0..2).filter(|&axis| grid.periodic[axis]).map(|axis| 0.5 * grid.size[axis] as f64);
         let radius = (f64::from(self.radius) / f64::from(coarsening)).clamp(1.0, Self::MAX_RADIUS);
         Some(Emission {
-            centre: self.centre.map(|along| (f64::from(along) + 0.5) / f64::from(coarsening)),
+            centre,
             radius: fits.fold(radius, f64::min),
             mass: self.mass.map(|mass| f64::from(mass) / (cell_metres * cell_metres)),
             velocity: self.velocity.map(f64::from),

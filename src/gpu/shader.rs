@@ -45,6 +45,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_cobble"
     "surface/albedo_glass"
     "surface/albedo_fur"
+    "surface/albedo_gas"
     "surface/albedo_grass"
     "surface/albedo_image"
     "surface/albedo_plain"

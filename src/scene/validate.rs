@@ -111,6 +111,7 @@ impl Scene {
         let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
         numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
+        self.gas.as_ref().map_or(Ok(()), |gas| super::gas::validate(gas, self))?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
@@ -138,15 +139,15 @@ pub fn check_camera(eye: [f64; 3], target: [f64; 3]) -> Result<(), String> {
     Ok(())
 }
 
-fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
+pub(super) fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
     Err(SceneError::Value { key: key.into(), value: value.to_string(), allowed: allowed.to_string() })
 }
 
-fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
+pub(super) fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
     if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
 }
 
-fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
+pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }
 
@@ -342,7 +343,7 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Lod, Rain};
+    use super::super::{Boundary, Gas, GasBands, GasBorder, GasEmitters, Lod, Rain};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -356,6 +357,7 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
+            gas: Some(Gas { border_u: GasBorder::Closed, bands: Some(GasBands::default()), emitters: Some(GasEmitters::default()), ..Gas::default() }),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()
