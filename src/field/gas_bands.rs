@@ -49,7 +49,7 @@ impl<'a> Bands<'a> {
     /// Where a place along v lies among the bands: whole numbers are pairs. Bands differ in width.
     fn phase(&self, v: f64) -> f64 {
         let sway = |index: i32| (TAU * (f64::from(index) * v + self.random(index, 1))).sin() / f64::from(index).powi(2);
-        f64::from(self.bands.pairs) * (v + 0.016 * (sway(1) + sway(2) + sway(3)))
+        f64::from(self.bands.pairs) * (v + 0.026 * (sway(1) + sway(2) + sway(3)))
     }
 
     /// How much of the wind is left near the borders along v.
@@ -122,10 +122,10 @@ impl<'a> Bands<'a> {
             (metres[0] / storm.half[0]).hypot(metres[1] / storm.half[1])
         };
         // The stream function at corners: its slopes, taken over a cell, are a velocity without divergence to the last bit.
-        let eddy_metres = height_metres / 22.0;
+        let eddy_metres = height_metres / 13.0;
         let stream = |x: i64, y: i64| {
             let uv = [x as f64 / size[0], y as f64 / size[1]];
-            let eddies = 0.5 * f64::from(self.bands.eddies_metres_per_second) * eddy_metres * noise(uv, 22.0, 11, 3);
+            let eddies = 0.5 * f64::from(self.bands.eddies_metres_per_second) * eddy_metres * noise(uv, 13.0, 11, 2);
             let vortices: f64 = storms
                 .iter()
                 .map(|storm| (storm, away(uv, storm)))
@@ -151,12 +151,12 @@ impl<'a> Bands<'a> {
             .cells()
             .map(|(x, y)| {
                 let uv = [(x as f64 + 0.5) / size[0], (y as f64 + 0.5) / size[1]];
-                let stray = noise(uv, 9.0, 31, 5) + 0.6 * noise([uv[0], uv[1] * 2.5], 26.0, 41, 4);
+                let stray = noise(uv, 7.0, 31, 4) + 0.6 * noise([uv[0], uv[1] * 2.5], 14.0, 41, 3);
                 let width = 0.5 / f64::from(self.bands.pairs);
                 let v = uv[1] + f64::from(self.bands.waviness) * width * stray * self.alive(uv[1]);
                 let [mut density, mut dye] = self.gas(v);
-                density += 0.22 * noise(uv, 34.0, 51, 4);
-                dye += 0.10 * noise(uv, 30.0, 61, 4);
+                density += 0.2 * noise([uv[0], uv[1] * 3.0], 12.0, 51, 3);
+                dye += 0.08 * noise([uv[0], uv[1] * 3.0], 10.0, 61, 3);
                 let ragged = 0.12 * noise(uv, 40.0, 71, 3);
                 for storm in &storms {
                     let far = away(uv, storm) + ragged;
@@ -178,10 +178,11 @@ impl<'a> Bands<'a> {
                 let wanted = if great { 0.63 } else { 0.18 + 0.66 * self.random(index, 5) };
                 // Between two winds, where the shear turns a vortex most: the steepest place nearby.
                 let shear = |v: f64| (self.wind(v + 0.004) - self.wind(v - 0.004)) / (0.008 * height_metres);
-                let outward = (wanted - 0.5).signum();
+                // Bright gas shows the great one best.
+                let fit = |v: f64| shear(v).abs() * if great { self.gas(v)[1] } else { 1.0 };
                 let at = (-30..=30)
                     .map(|step| wanted + 0.0018 * f64::from(step))
-                    .max_by(|a, b| (outward * shear(*a)).abs().total_cmp(&(outward * shear(*b)).abs()))
+                    .max_by(|a, b| fit(*a).total_cmp(&fit(*b)))
                     .unwrap_or(wanted);
                 let size = if great { 1.0 } else { 0.14 + 0.30 * self.random(index, 6).powi(2) };
                 let along = size * f64::from(self.bands.storm_radius_metres);

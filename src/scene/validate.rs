@@ -357,7 +357,12 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
-            gas: Some(Gas { border_u: GasBorder::Closed, bands: Some(GasBands::default()), emitters: Some(GasEmitters::default()), ..Gas::default() }),
+            gas: Some(Gas {
+                border_u: GasBorder::Closed,
+                bands: Some(GasBands::default()),
+                emitters: Some(GasEmitters::default()),
+                ..Gas::default()
+            }),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()

