@@ -9,6 +9,8 @@ mod gas;
 mod layer;
 mod lights;
 mod lod;
+mod noise;
+mod sequence;
 mod techniques;
 mod text;
 mod validate;
@@ -25,6 +27,10 @@ pub use gas::{GAS_CELLS_MIN, GAS_VISCOSITY_MAX, Gas, GasBands, GasBorder, GasEmi
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
+pub use noise::{
+    ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
+};
+pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -64,6 +70,12 @@ pub struct Scene {
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
+    /// Procedural heights over the base, if any.
+    #[serde(default)]
+    pub noise: Option<Noise>,
+    /// A numbered series of images over those, if any.
+    #[serde(default)]
+    pub sequence: Option<Sequence>,
     /// Seeded shots at the surface, if any.
     #[serde(default)]
     pub shots: Option<Shots>,
@@ -399,6 +411,8 @@ impl Default for Scene {
             base: Base::default(),
             gas: None,
             wave: None,
+            noise: None,
+            sequence: None,
             shots: None,
             trace: Trace::default(),
             lod: Lod::default(),

@@ -3,6 +3,8 @@
 //! Every random stroke has a number, and its own generator made from the seed and that number: what a stroke looks like depends
 //! neither on the strokes before it nor on how frames cut time into pieces. A warm-up of W frames and then N more are W + N.
 
+use std::sync::Arc;
+
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
@@ -10,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::clock::{Simulation, Tick};
 use crate::field::gas_bands::Bands;
 use crate::field::gas_emit::Puff;
+use crate::field::sequence::Images;
 use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Gas, GasEmitters, Rain, Scene, Shots};
@@ -35,6 +38,8 @@ pub struct Strokes {
     pub splashes: Vec<(u32, Impulse)>,
     /// The puffs, each with the step of the frame before which it falls.
     pub puffs: Vec<(u32, Puff)>,
+    /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
+    pub images: Option<Arc<Images>>,
 }
 
 impl Strokes {

@@ -61,10 +61,6 @@ impl Tank {
         Some(Self { gpu, gas, set, physics, heights, cover })
     }
 
-    pub fn grid(&self) -> Grid {
-        self.set.buffers.grid
-    }
-
     pub fn put(&mut self, state: &State) {
         self.set.reset(self.gpu, state);
     }
