@@ -156,12 +156,12 @@ impl<'a> Bands<'a> {
                 let v = uv[1] + f64::from(self.bands.waviness) * width * stray * self.alive(uv[1]);
                 let [mut density, mut dye] = self.gas(v);
                 density += 0.2 * noise([uv[0], uv[1] * 3.0], 12.0, 51, 3);
-                dye += 0.08 * noise([uv[0], uv[1] * 3.0], 10.0, 61, 3);
+                dye += 0.13 * noise([uv[0], uv[1] * 2.5], 9.0, 61, 3);
                 let ragged = 0.12 * noise(uv, 40.0, 71, 3);
                 for storm in &storms {
                     let far = away(uv, storm) + ragged;
                     let inside = 1.0 - smoothstep(0.75, 1.15, far);
-                    density += (0.75 - density) * inside * (0.55 + 0.45 * (7.0 * far).cos());
+                    density += (0.6 - density) * inside * (0.8 + 0.2 * (5.0 * far).cos());
                     dye += (storm.dye - dye) * inside;
                 }
                 [density, dye.clamp(0.0, 1.0)]
@@ -194,7 +194,7 @@ impl<'a> Bands<'a> {
                     // ∂u/∂v above 0 turns against the clock on the screen. A patch keeps this shape in a shear a sixth of its
                     // own vorticity [Moore]; a weaker one is drawn out to a thread.
                     speed: -turning.signum()
-                        * (2.6 * turning.abs() * across * along + 0.1 * f64::from(self.bands.wind_metres_per_second)),
+                        * (3.0 * turning.abs() * across * along + 0.2 * f64::from(self.bands.wind_metres_per_second)),
                     dye: if great {
                         0.02
                     } else if self.random(index, 8) < 0.7 {
