@@ -38,6 +38,12 @@ var<workgroup> flow: array<vec2f, 400>;
 var<workgroup> vorticity: array<f32, 400>;
 var<workgroup> fastest: atomic<u32>;
 
+// The column and row of a place in the tile's surroundings. lavapipe divides integers lane by lane; floats are exact here.
+fn surrounding(k: u32) -> vec2u {
+    let row = u32((f32(k) + 0.5) * (1.0 / f32(GAS_SIDE)));
+    return vec2u(k - row * GAS_SIDE, row);
+}
+
 // The push on a face, where `along` its ends |vorticity| rises and `across` it: see the reference.
 fn gas_confinement(ends: vec2f, before: vec2f, after: vec2f) -> f32 {
     let along = abs(ends.y) - abs(ends.x);
@@ -60,14 +66,15 @@ fn gas_force(
     let tile = gas_tile(place);
     let origin = tile * i32(GAS_TILE) - GAS_AROUND;
     for (var k = local_index; k < GAS_SIDE * GAS_SIDE; k += GAS_TILE * GAS_TILE) {
-        let cell = origin + vec2i(i32(k % GAS_SIDE), i32(k / GAS_SIDE));
+        let cell = origin + vec2i(surrounding(k));
         flow[k] = limited[gas_index(cell)].xy * gas_open(cell);
     }
     workgroupBarrier();
     for (var k = local_index; k < GAS_SIDE * GAS_SIDE; k += GAS_TILE * GAS_TILE) {
-        let open = gas_open(origin + vec2i(i32(k % GAS_SIDE), i32(k / GAS_SIDE)));
+        let at = surrounding(k);
+        let open = gas_open(origin + vec2i(at));
         var turning = 0.0;
-        if k % GAS_SIDE > 0u && k >= GAS_SIDE {
+        if all(at > vec2u(0u)) {
             turning = (flow[k].y - flow[k - 1u].y) - (flow[k].x - flow[k - GAS_SIDE].x);
         }
         vorticity[k] = turning * open.x * open.y;

@@ -77,14 +77,27 @@ fn project_open(cell: vec2i) -> vec2f {
     return select(vec2f(0.0), vec2f(1.0), (level.periodic == vec2i(1)) | ((cell > vec2i(0)) & (cell < level.size)));
 }
 
+// The column and row of a place in the tile's surroundings. lavapipe divides integers lane by lane; floats are exact here.
+fn surrounding(k: u32) -> vec2u {
+    let row = u32((f32(k) + 0.5) * (1.0 / f32(GAS_SIDE)));
+    return vec2u(k - row * GAS_SIDE, row);
+}
+
 // A cell of the tile's surroundings.
 fn project_cell(origin: vec2i, k: u32) -> vec2i {
-    return origin + vec2i(i32(k % GAS_SIDE), i32(k / GAS_SIDE));
+    return origin + vec2i(surrounding(k));
+}
+
+// a / b of whole numbers that are not negative, rounded down, without an integer division: the float's quotient is off by one at most.
+fn quotient(a: vec2i, b: vec2i) -> vec2i {
+    let near = vec2i(floor(vec2f(a) / vec2f(b)));
+    let left = a - near * b;
+    return near + select(vec2i(0), vec2i(1), left >= b) - select(vec2i(0), vec2i(1), left < vec2i(0));
 }
 
 // Whether a place is at least so many from the low and from the high border of the tile's surroundings.
 fn within(k: u32, low: u32, high: u32) -> bool {
-    let at = vec2u(k % GAS_SIDE, k / GAS_SIDE);
+    let at = surrounding(k);
     return all(at >= vec2u(low)) && all(at < vec2u(GAS_SIDE - high));
 }
 
@@ -159,7 +172,7 @@ fn descend(local_index: u32, origin: vec2i) {
 
 // The coarse cell that an invocation sums: those that begin within the tile are the tile's own. An axis of one cell is not halved.
 fn coarse_cell(first: vec2i, local: vec2u) -> vec2i {
-    return (first * level.coarse + level.size - 1) / level.size + vec2i(local);
+    return quotient(first * level.coarse + level.size - 1, level.size) + vec2i(local);
 }
 
 // The part of a fine cell that lies in a coarse one, an axis.
@@ -171,7 +184,7 @@ fn part(coarse: vec2i, fine: vec2i) -> vec2f {
 
 // The sum of the residuals over a coarse cell, by area.
 fn restricted(coarse: vec2i, origin: vec2i) -> f32 {
-    let first = coarse * level.size / level.coarse;
+    let first = quotient(coarse * level.size, level.coarse);
     var sum = 0.0;
     for (var y = 0; y < 4; y++) {
         for (var x = 0; x < 4; x++) {
@@ -185,7 +198,7 @@ fn restricted(coarse: vec2i, origin: vec2i) -> f32 {
 }
 
 fn owns(coarse: vec2i, first: vec2i) -> bool {
-    return all(coarse < level.coarse) && all(coarse * level.size / level.coarse < first + i32(GAS_TILE));
+    return all(coarse < level.coarse) && all(quotient(coarse * level.size, level.coarse) < first + i32(GAS_TILE));
 }
 
 @compute @workgroup_size(GAS_TILE, GAS_TILE)
@@ -263,7 +276,7 @@ fn prolong_place(cell: vec2i, first: vec2i, start: vec2f) -> vec2f {
 fn prolong_base(first: vec2i) -> vec2i {
     // Twice the grid more, that it is positive wherever the surroundings begin.
     let shifted = (2 * first + 1) * level.coarse - level.size + 2 * level.size * GAS_SHIFT * level.coarse;
-    return shifted / (2 * level.size) - GAS_SHIFT * level.coarse;
+    return quotient(shifted, 2 * level.size) - GAS_SHIFT * level.coarse;
 }
 
 fn prolong_start(first: vec2i, base: vec2i) -> vec2f {
