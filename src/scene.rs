@@ -7,6 +7,7 @@ mod bodies;
 mod framing;
 mod lights;
 mod lod;
+pub mod shallow_water;
 mod techniques;
 mod text;
 mod validate;
@@ -21,6 +22,7 @@ use crate::surface::{Albedo, Shading, Shadow, Technique};
 pub use bodies::{Ball, Mesh};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
+pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -58,6 +60,9 @@ pub struct Scene {
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
+    /// Shallow water over it, if any.
+    #[serde(default)]
+    pub shallow_water: Option<ShallowWater>,
     /// Seeded shots at the surface, if any.
     #[serde(default)]
     pub shots: Option<Shots>,
@@ -390,6 +395,7 @@ impl Default for Scene {
             plane: Plane::default(),
             base: Base::default(),
             wave: None,
+            shallow_water: None,
             shots: None,
             trace: Trace::default(),
             lod: Lod::default(),

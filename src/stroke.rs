@@ -166,6 +166,8 @@ pub enum Stream {
     Stress,
     /// What a hand does in the window.
     Hand,
+    /// Drops on shallow water.
+    Drops,
 }
 
 /// The random numbers of one stroke. Xoshiro256++ and the conversion below are fixed for ever; `rand`'s distributions are not.

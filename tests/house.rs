@@ -38,6 +38,21 @@ fn the_binary_embeds_every_shader() {
 /// Stems that the rule does not bind wholly: the shader, which of its companions it lacks, and why.
 const EXEMPT: &[(&str, &[&str], &str)] = &[
     (
+        "field/shallow_water_disturb",
+        &["src", "reference", "tests"],
+        "a part of the water's pass: tests/field/shallow_water.rs weighs what it adds and takes",
+    ),
+    (
+        "field/shallow_water_plan",
+        &["src", "reference", "tests"],
+        "a part of the water's pass: its rule is reference/shallow_water.rs's `advance`",
+    ),
+    (
+        "field/shallow_water_publish",
+        &["src", "reference", "tests"],
+        "a part of the water's pass: a sum, which tests/field/shallow_water.rs reads",
+    ),
+    (
         "surface/albedo_brick",
         &["src", "reference", "tests"],
         "a colour: the goldens hold it; its layout is field/base/masonry.rs's",

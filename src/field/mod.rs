@@ -24,10 +24,11 @@ pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
+pub mod shallow_water;
 pub mod stamp;
 pub mod wave;
 
-use wgpu::{TextureFormat, TextureUsages};
+use wgpu::TextureUsages;
 
 use crate::gpu::{Contract, Gpu, Role, Texture};
 use crate::scene::Addressing;
@@ -37,7 +38,7 @@ pub use dirty::Dirty;
 pub use region::Region;
 
 /// How a layer is used that kernels write in place and tests read back.
-const LAYER: TextureUsages = TextureUsages::TEXTURE_BINDING
+pub(crate) const LAYER: TextureUsages = TextureUsages::TEXTURE_BINDING
     .union(TextureUsages::STORAGE_BINDING)
     .union(TextureUsages::COPY_DST)
     .union(TextureUsages::COPY_SRC);
@@ -48,14 +49,15 @@ macro_rules! roles {
             $(#[$doc])*
             #[derive(Clone, Copy, Debug)]
             pub enum $role {}
-            impl Role for $role {
-                const CONTRACT: Contract = Contract {
-                    name: $name, format: TextureFormat::$format, mips: $mips, content: $content, writer: $writer, readers: $readers, usage: $usage,
+            impl $crate::gpu::Role for $role {
+                const CONTRACT: $crate::gpu::Contract = $crate::gpu::Contract {
+                    name: $name, format: wgpu::TextureFormat::$format, mips: $mips, content: $content, writer: $writer, readers: $readers, usage: $usage,
                 };
             }
         )+
     };
 }
+pub(crate) use roles;
 
 roles! {
     /// The base with every stamp pressed into it.

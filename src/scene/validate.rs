@@ -112,6 +112,7 @@ impl Scene {
         numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.shallow_water.as_ref().map_or(Ok(()), |water| water.validate(self))?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
@@ -138,15 +139,15 @@ pub fn check_camera(eye: [f64; 3], target: [f64; 3]) -> Result<(), String> {
     Ok(())
 }
 
-fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
+pub(super) fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
     Err(SceneError::Value { key: key.into(), value: value.to_string(), allowed: allowed.to_string() })
 }
 
-fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
+pub(super) fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
     if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
 }
 
-fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
+pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }
 

@@ -4,5 +4,6 @@ mod compose;
 mod normal_mips;
 mod normals;
 mod pyramid;
+mod shallow_water;
 mod stamp;
 mod wave;
