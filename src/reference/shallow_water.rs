@@ -1,7 +1,8 @@
 //! Shallow water in f64: the specification of `shaders/field/shallow_water.wgsl`.
 //!
 //! h_t + ∇·(h u) = rain − seepage, (h u)_t + ∇·(h u⊗u) + g h ∇(h + b) = −g n² |u| u / h^⅓, with depth h and velocity u over a bed b:
-//! MUSCL-Hancock in each direction by turns, x first in even steps and y first in odd ones (Strang), HLLC fluxes (\[Toro\]) of
+//! each direction by turns, x first in even steps and y first in odd ones (Strang), by the midpoint rule: a half step in first order,
+//! then minmod slopes of what it gives. HLLC fluxes (\[Toro\]) of
 //! hydrostatically reconstructed states (\[Audusse\]), mass fluxes that never take more than there is, velocities of thin films
 //! desingularised (\[KP\]), and friction point-implicit.
 
@@ -77,15 +78,9 @@ pub struct Water {
     pub speed: f64,
 }
 
-/// Slopes grow to this many times the smaller of the two differences (\[KP\] θ): 1 is minmod, 2 the monotonised central one.
-pub const LIMITER: f64 = 1.5;
-
-fn limited(before: f64, after: f64) -> f64 {
-    if before * after <= 0.0 {
-        return 0.0;
-    }
-    let size = (LIMITER * before.abs().min(after.abs())).min(0.5 * (before + after).abs());
-    size.copysign(before)
+/// The smaller of two slopes of one sign.
+fn minmod(before: f64, after: f64) -> f64 {
+    if before * after <= 0.0 { 0.0 } else { before.abs().min(after.abs()).copysign(before) }
 }
 
 impl Rules {
@@ -106,39 +101,33 @@ struct End {
 }
 
 impl Water {
-    /// Ends of a cell half a step ahead, and the pull of its own bed between them.
-    fn ends(&self, before: &Cell, cell: &Cell, after: &Cell, ratio: f64) -> ([End; 2], f64) {
-        let g = self.rules.gravity;
-        let slope = |of: fn(&Cell) -> f64| limited(of(cell) - of(before), of(after) - of(cell));
-        let (depth_slope, surface_slope) = (slope(|cell| cell.depth), slope(|cell| cell.depth + cell.bed));
-        let (along_slope, across_slope, foam_slope) =
-            (slope(|cell| cell.along), slope(|cell| cell.across), slope(|cell| cell.foam));
-        let half = 0.5 * ratio;
-        let rise = -half * (cell.along * depth_slope + cell.depth * along_slope);
-        let capped = |velocity: f64| velocity.clamp(-self.rules.speed_cap, self.rules.speed_cap);
-        let along = capped(cell.along - half * (cell.along * along_slope + g * surface_slope));
-        let across = capped(cell.across - half * cell.along * across_slope);
-        let foam = cell.foam - half * cell.along * foam_slope;
+    /// Ends of a cell, and the pull of its own bed between them.
+    fn ends(&self, before: &Cell, cell: &Cell, after: &Cell) -> ([End; 2], f64) {
+        let slope = |of: fn(&Cell) -> f64| minmod(of(cell) - of(before), of(after) - of(cell));
+        let surface_slope = slope(|cell| cell.depth + cell.bed);
+        let depth_slope = slope(|cell| cell.depth);
+        let [along, across, foam] = [slope(|cell| cell.along), slope(|cell| cell.across), slope(|cell| cell.foam)];
         let ends = [-0.5, 0.5].map(|side| {
-            let depth = cell.depth + rise + side * depth_slope;
+            let depth = cell.depth + side * depth_slope;
             let lack = (-depth).max(0.0);
             End {
                 depth: depth + lack,
-                surface: cell.depth + cell.bed + rise + side * surface_slope + lack,
-                along: along + side * along_slope,
-                across: across + side * across_slope,
-                foam: foam + side * foam_slope,
+                surface: cell.depth + cell.bed + side * surface_slope + lack,
+                along: cell.along + side * along,
+                across: cell.across + side * across,
+                foam: cell.foam + side * foam,
             }
         });
-        let pull = 0.5 * g * (ends[0].depth + ends[1].depth) * (ends[1].surface - ends[0].surface);
+        let pull = 0.5 * self.rules.gravity * (ends[0].depth + ends[1].depth) * (ends[1].surface - ends[0].surface);
         (ends, pull)
     }
 
-    fn face(&self, line: &[Cell], at: usize, ratio: f64, closed: bool) -> Face {
+    /// What passes between the second and the third of four cells; each face takes its part of `stocks`, the depths of those two before.
+    fn face(&self, cells: [&Cell; 4], stocks: [f64; 2], ratio: f64, closed: bool) -> Face {
         let g = self.rules.gravity;
-        let (left_cell, right_cell) = (&line[at], &line[at + 1]);
-        let ([_, left], left_pull) = self.ends(&line[at - 1], left_cell, right_cell, ratio);
-        let ([right, _], right_pull) = self.ends(left_cell, right_cell, &line[at + 2], ratio);
+        let [_, left_cell, right_cell, _] = cells;
+        let ([_, left], left_pull) = self.ends(cells[0], left_cell, right_cell);
+        let ([right, _], right_pull) = self.ends(left_cell, right_cell, cells[3]);
         let sill = (left.surface - left.depth).max(right.surface - right.depth);
         let depths = [(left.surface - sill).max(0.0), (right.surface - sill).max(0.0)];
         let [hl, hr] = depths;
@@ -146,8 +135,8 @@ impl Water {
         let [cl, cr] = depths.map(|depth| (g * depth).sqrt());
         let middle = 0.5 * (ul + ur) + cl - cr;
         let celerity = (0.5 * (cl + cr) + 0.25 * (ul - ur)).max(0.0);
-        let mut low = (ul - cl).min(middle - celerity);
-        let mut high = (ur + cr).max(middle + celerity);
+        let mut low = (ul - (g * left.depth).sqrt()).min(middle - celerity);
+        let mut high = (ur + (g * right.depth).sqrt()).max(middle + celerity);
         if hl <= 0.0 {
             (low, high) = (ur - 2.0 * cr, ur + cr);
         } else if hr <= 0.0 {
@@ -164,7 +153,7 @@ impl Water {
         // No face takes more than its share of what there is: the shares of a cell's two faces are 1 together.
         let left_share = 0.5 + 0.5 * (left_cell.along * ratio).clamp(-1.0, 1.0);
         let right_share = 0.5 - 0.5 * (right_cell.along * ratio).clamp(-1.0, 1.0);
-        let allowed = mass.clamp(-right_share * right_cell.depth / ratio, left_share * left_cell.depth / ratio);
+        let allowed = mass.clamp(-right_share * stocks[1] / ratio, left_share * stocks[0] / ratio);
         let allowed = if closed { 0.0 } else { allowed };
         let scale = if mass == 0.0 || closed { 1.0 } else { allowed / mass };
         let upwind = if allowed >= 0.0 { &left } else { &right };
@@ -178,6 +167,21 @@ impl Water {
         }
     }
 
+    /// A cell after what passed its two faces.
+    fn moved(&self, cell: &Cell, before: &Face, after: &Face, ratio: f64) -> Cell {
+        let depth = (cell.depth - ratio * (after.mass - before.mass)).max(0.0);
+        let along = cell.depth * cell.along - ratio * (after.pressed[0] - before.pressed[1]);
+        let across = cell.depth * cell.across - ratio * (after.across - before.across);
+        let foam = cell.depth * cell.foam - ratio * (after.foam - before.foam);
+        Cell {
+            depth,
+            along: self.rules.velocity(along, depth),
+            across: self.rules.velocity(across, depth),
+            foam: if depth > self.rules.dry_metres { (foam / depth).clamp(0.0, 1.0) } else { cell.foam },
+            bed: cell.bed,
+        }
+    }
+
     fn sweep(&mut self, axis: usize, dt: f64) {
         let ratio = dt / self.texel_metres;
         let [width, height] = self.size;
@@ -185,29 +189,34 @@ impl Water {
         for number in 0..lines {
             let index = |at: usize| number * line_stride + at * stride;
             let line = self.line(axis, &index, length);
+            let is_closed = |face: usize| {
+                let border = if face == 0 { Some(0) } else if face == length { Some(1) } else { None };
+                border.is_some_and(|end| self.rules.borders[2 * axis + end] == Border::Wall)
+            };
+            // The midpoint rule. Half a step ahead, in first order: a cell and its neighbour twice have no slopes.
+            let first: Vec<Face> = (0..length + 3)
+                .map(|face| {
+                    let (left, right) = (&line[face], &line[face + 1]);
+                    let closed = face > 0 && is_closed(face - 1);
+                    self.face([left, left, right, right], [left.depth, right.depth], 0.5 * ratio, closed)
+                })
+                .collect();
+            let mut ahead = line.clone();
+            for at in 1..length + 3 {
+                ahead[at] = self.moved(&line[at], &first[at - 1], &first[at], 0.5 * ratio);
+            }
             let faces: Vec<Face> = (0..=length)
                 .map(|face| {
-                    let border = if face == 0 {
-                        Some(0)
-                    } else if face == length {
-                        Some(1)
-                    } else {
-                        None
-                    };
-                    let closed = border.is_some_and(|end| self.rules.borders[2 * axis + end] == Border::Wall);
-                    self.face(&line, face + 1, ratio, closed)
+                    let cells = [0, 1, 2, 3].map(|cell| &ahead[face + cell]);
+                    self.face(cells, [line[face + 1].depth, line[face + 2].depth], ratio, is_closed(face))
                 })
                 .collect();
             for at in 0..length {
-                let (cell, before, after) = (line[at + 2], &faces[at], &faces[at + 1]);
-                let depth = (cell.depth - ratio * (after.mass - before.mass)).max(0.0);
-                let along = cell.depth * cell.along - ratio * (after.pressed[0] - before.pressed[1]);
-                let across = cell.depth * cell.across - ratio * (after.across - before.across);
-                let foam = cell.depth * cell.foam - ratio * (after.foam - before.foam);
-                let flow = [self.rules.velocity(along, depth) * depth, self.rules.velocity(across, depth) * depth];
-                self.depth[index(at)] = depth;
+                let cell = self.moved(&line[at + 2], &faces[at], &faces[at + 1], ratio);
+                self.depth[index(at)] = cell.depth;
+                let flow = [cell.along * cell.depth, cell.across * cell.depth];
                 self.flow[index(at)] = if axis == 0 { flow } else { [flow[1], flow[0]] };
-                self.foam[index(at)] = if depth > self.rules.dry_metres { (foam / depth).clamp(0.0, 1.0) } else { cell.foam };
+                self.foam[index(at)] = cell.foam;
             }
             self.speed = faces.iter().fold(self.speed, |speed, face| speed.max(face.speed));
         }

@@ -139,8 +139,8 @@ pub const GRAVITY: Range = Range::above(0.0, 100.0, "m/s²");
 pub const MANNING: Range = Range::from_to(0.0, 1.0, "s/m^⅓");
 /// The step that the clock owes.
 pub const STEP_SECONDS: Range = Range::from_to(1e-4, 0.1, "seconds");
-/// Share of a texel a substep: beyond it water runs over texels that were not asked.
-pub const COURANT: Range = Range::from_to(0.05, 0.9, "");
+/// Share of a texel a substep. Beyond a half, ripples over a rough bed grow.
+pub const COURANT: Range = Range::from_to(0.05, 0.5, "");
 /// Levels and heights of water.
 pub const LEVEL: Range = Range::from_to(-10.0, 10.0, "");
 /// Rain and seepage: a metre a second is a waterfall.
@@ -240,7 +240,7 @@ impl Default for ShallowWater {
             manning: 0.02,
             step_seconds: 1.0 / 120.0,
             substep_cap: 16,
-            courant: 0.8,
+            courant: 0.45,
             borders: [Border::Wall; 4],
             sea_level: 0.5,
             swell: None,
