@@ -145,6 +145,8 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Sand that rises from the sea in the south to dunes in the north.
+    Beach {},
     /// Short fur, combed, the same that the `fur` albedo colours.
     Fur {},
     /// A lawn with daisies, the same that the `grass` albedo colours.

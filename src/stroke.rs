@@ -8,6 +8,7 @@ use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 use crate::clock::{Simulation, Tick};
+use crate::field::shallow_water::{self, Event};
 use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Rain, Scene, Shots};
@@ -20,6 +21,8 @@ pub enum Stroke {
     Press(Stamp),
     /// An impulse upon the water.
     Splash(Impulse),
+    /// Something done to shallow water.
+    Water(Event),
 }
 
 /// All that is done to the field in one frame.
@@ -29,6 +32,8 @@ pub struct Strokes {
     pub presses: Vec<Stamp>,
     /// The impulses, each with the step of the frame before which it falls: 0 is the first.
     pub splashes: Vec<(u32, Impulse)>,
+    /// What is done to shallow water, each with the step of the frame before which it happens.
+    pub waters: Vec<(u32, Event)>,
 }
 
 impl Strokes {
@@ -37,6 +42,11 @@ impl Strokes {
         match stroke {
             Stroke::Press(stamp) => self.presses.push(stamp),
             Stroke::Splash(impulse) => self.splashes.push((0, impulse)),
+            // In order of their steps: a hand's come after the scene's.
+            Stroke::Water(event) => {
+                let before = self.waters.partition_point(|(step, _)| *step == 0);
+                self.waters.insert(before, (0, event));
+            }
         }
     }
 
@@ -50,6 +60,14 @@ impl Strokes {
             for step in 0..owed.steps {
                 let impulses = rain_in_step(rain, seed, &lattice, step_seconds, owed.first_step + u64::from(step));
                 strokes.splashes.extend(impulses.map(|impulse| (step, impulse)));
+            }
+        }
+        if let Some(water) = &scene.shallow_water {
+            let owed = tick.owed(Simulation::ShallowWater);
+            for step in 0..owed.steps {
+                let number = owed.first_step + u64::from(step);
+                let events = shallow_water::events_in_step(water, seed, &lattice, number);
+                strokes.waters.extend(events.map(|event| (step, event)));
             }
         }
         if let Some(shots) = &scene.shots {

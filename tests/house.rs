@@ -90,6 +90,7 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/light_probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),
     ("surface/matter", &["src", "reference", "tests"], "what albedos share"),
     ("surface/ray", &["src", "reference", "tests"], "two structs: their twins are the probe's"),
+    ("surface/shallows", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/shade", &["src", "reference", "tests"], "a sum of what others prove: the goldens hold it"),
     ("surface/transparent", &["src", "reference", "tests"], "what albedos share: the goldens hold it"),
     ("surface/truth_exact", &["src", "reference", "tests"], "calls what others prove; the captures' proof of views reads it"),

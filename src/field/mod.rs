@@ -13,6 +13,11 @@
 //! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
 //! | | | | *28 in every field* | | |
+//! | water bed | r32float | 4 | height of what the water flows over, unclamped | compose | shallow water |
+//! | water depth (two) | rg32float | 16 | depth in metres, share of foam; in buffers | shallow water | shallow water |
+//! | water flow (two) | rg32float | 16 | depth times velocity, m²/s; in buffers | shallow water | shallow water |
+//! | water surface | r32float | 4 | height of the water, or of the bed where there is none, unclamped | shallow water | compose |
+//! | | | | *40 more with shallow water* | | |
 //! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | | | | *9 more with wave* | | |
@@ -87,7 +92,8 @@ pub const CONTRACT: &[(Contract, u32)] =
     &[(Relief::CONTRACT, 1), (Material::CONTRACT, 1), (Height::CONTRACT, 1), (Normal::CONTRACT, 1), (Pyramid::CONTRACT, 1)];
 
 /// What each kind of source adds to them.
-pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] = &[("wave", wave::CONTRACT)];
+pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] =
+    &[("shallow water", shallow_water::CONTRACT), ("wave", wave::CONTRACT)];
 
 /// Bytes a texel of the field that textures take together.
 pub fn bytes_per_texel<'a>(contract: impl IntoIterator<Item = &'a (Contract, u32)>) -> f64 {

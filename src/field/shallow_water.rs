@@ -10,8 +10,10 @@
 //! [`crate::reference::shallow_water`].
 
 mod event;
+mod source;
 
 pub use event::{Event, events_in_step};
+pub use source::ShallowWaterSource;
 
 use bytemuck::{Pod, Zeroable};
 
@@ -353,11 +355,8 @@ impl ShallowWater {
             Kernel::new(gpu, "shallow water", &parts, entry_point, &constants, &[None, Some(layout)])
         };
         let span = Self::TILE + 2 * Self::HALO;
-        let tile = [
-            ("SHALLOW_WATER_SPAN", span),
-            ("SHALLOW_WATER_CELLS", span * span),
-            ("SHALLOW_WATER_FACES", span * (span - 1)),
-        ];
+        let tile =
+            [("SHALLOW_WATER_SPAN", span), ("SHALLOW_WATER_CELLS", span * span), ("SHALLOW_WATER_FACES", span * (span - 1))];
         let lanes = [("SHALLOW_WATER_LANES", Self::LANES)];
         let plan = |entry_point| kernel("field/shallow_water_plan", entry_point, &[], &layouts.plan);
         let disturb = "field/shallow_water_disturb";
@@ -390,16 +389,17 @@ impl ShallowWater {
     }
 
     /// Advances by the steps that are owed, each with the events that fall before it (sorted by step), and says whether anything can
-    /// have changed. While no step is owed, those of step 0 fall all the same.
+    /// have changed: where the bed did, its surface does. While no step is owed, those of step 0 fall all the same.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
         set: &mut ShallowWaterSet,
         spells: &[ShallowWaterSpell],
         events: &[(u32, Event)],
+        bed_changed: bool,
     ) -> bool {
         let fills = std::mem::take(&mut set.to_fill);
-        if !fills && spells.is_empty() && events.is_empty() {
+        if !fills && !bed_changed && spells.is_empty() && events.is_empty() {
             return false;
         }
         let batches = self.upload(recorder.gpu, set, spells, events);

@@ -109,5 +109,6 @@ pub trait Source {
 /// The step of each simulation of a scene, seconds; none where it does not run.
 pub fn step_seconds(scene: &Scene) -> StepSeconds {
     let wave = scene.wave.as_ref().map(|wave| super::wave::step_seconds(wave, scene.texel_metres()));
-    [wave, None, None]
+    let water = scene.shallow_water.as_ref().map(|water| f64::from(water.step_seconds));
+    [wave, water, None]
 }

@@ -2,6 +2,7 @@
 
 use super::bins::BinError;
 use super::compose::{self, Compose, ComposeSet};
+use super::shallow_water::ShallowWaterSource;
 use super::source::{Health, Source, SourceInput, State};
 use super::wave::WaveSource;
 use super::{Dirty, Field, Region};
@@ -13,6 +14,9 @@ use crate::stroke::Strokes;
 /// The sources of a scene, from the ground up. Adding a source is its stem and its line here.
 fn sources(gpu: &Gpu, field: &Field, scene: &Scene) -> Result<Vec<Box<dyn Source>>, ShaderError> {
     let mut sources: Vec<Box<dyn Source>> = Vec::new();
+    if let Some(water) = &scene.shallow_water {
+        sources.push(Box::new(ShallowWaterSource::new(gpu, field, scene, water)?));
+    }
     if let Some(wave) = &scene.wave {
         sources.push(Box::new(WaveSource::new(gpu, field, scene, wave)?));
     }
@@ -20,18 +24,18 @@ fn sources(gpu: &Gpu, field: &Field, scene: &Scene) -> Result<Vec<Box<dyn Source
 }
 
 /// Which sources a scene has. Scenes that agree in this differ in no more than what [`Source::set_scene`] takes over.
-pub fn kinds(scene: &Scene) -> [bool; 1] {
-    [scene.wave.is_some()]
+pub fn kinds(scene: &Scene) -> [bool; 2] {
+    [scene.shallow_water.is_some(), scene.wave.is_some()]
 }
 
 /// Whether any source of two scenes of the same kinds has other settings.
 pub fn differ(a: &Scene, b: &Scene) -> bool {
-    a.wave != b.wave
+    a.wave != b.wave || a.shallow_water != b.shallow_water
 }
 
 /// Whether a source of the scene writes [`Cover`](super::Cover).
-pub fn covers(_scene: &Scene) -> bool {
-    false
+pub fn covers(scene: &Scene) -> bool {
+    scene.shallow_water.is_some()
 }
 
 /// Layers that are composed together: those above a bed, or the relief, up to the next bed or the top.

@@ -75,6 +75,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/shadow_hard"
     "surface/shadow_none"
     "surface/shadow_pom_soft"
+    "surface/shallows"
     "surface/shell"
     "surface/sky"
     "surface/shadow_steep"

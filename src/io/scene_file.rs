@@ -15,7 +15,7 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 11] = [
+pub const EMBEDDED: [(&str, &str); 14] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -27,6 +27,9 @@ pub const EMBEDDED: [(&str, &str); 11] = [
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
     ("cube", include_str!("../../scenes/cube.toml")),
     ("planet", include_str!("../../scenes/planet.toml")),
+    ("dam-break", include_str!("../../scenes/dam-break.toml")),
+    ("harbour", include_str!("../../scenes/harbour.toml")),
+    ("rain-on-cobbles", include_str!("../../scenes/rain-on-cobbles.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.

@@ -190,7 +190,13 @@ impl Water {
             let index = |at: usize| number * line_stride + at * stride;
             let line = self.line(axis, &index, length);
             let is_closed = |face: usize| {
-                let border = if face == 0 { Some(0) } else if face == length { Some(1) } else { None };
+                let border = if face == 0 {
+                    Some(0)
+                } else if face == length {
+                    Some(1)
+                } else {
+                    None
+                };
                 border.is_some_and(|end| self.rules.borders[2 * axis + end] == Border::Wall)
             };
             // The midpoint rule. Half a step ahead, in first order: a cell and its neighbour twice have no slopes.

@@ -154,7 +154,7 @@ pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], r
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Beach {} | Base::Fur {} | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),

@@ -52,6 +52,8 @@ pub struct Choice {
     pub balls: bool,
     /// Whether the material mirrors its surroundings.
     pub reflects: bool,
+    /// Whether shallow water covers the ground.
+    pub covered: bool,
 }
 
 impl Choice {
@@ -70,6 +72,7 @@ impl Choice {
             detail: false,
             balls: false,
             reflects: false,
+            covered: false,
         }
     }
 
@@ -84,6 +87,7 @@ impl Choice {
             detail,
             balls,
             reflects,
+            covered: scene.shallow_water.is_some(),
             ..Self::tracing(trace.technique, trace.shadow)
         }
     }
@@ -108,6 +112,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "matter",
         "transparent",
         albedo.stem(),
+        "shallows",
         shading.stem(),
         "shade",
         if with_truth { "truth_exact" } else { "truth_none" },
@@ -136,7 +141,8 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
 
 /// The `override`s that Rust owns in a composition of [`parts`], besides those of its entry points.
 pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
-    let switches = [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects)];
+    let switches =
+        [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects), ("COVERED", choice.covered)];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![

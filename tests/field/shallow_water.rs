@@ -95,7 +95,7 @@ impl Basin {
 
     fn run_with(&mut self, steps: u32, seconds: f64, events: &[(u32, Event)]) {
         let spells = vec![ShallowWaterSpell { seconds: seconds as f32, ..ShallowWaterSpell::default() }; steps as usize];
-        run(self.gpu, |recorder| self.water.record(recorder, &mut self.set, &spells, events));
+        run(self.gpu, |recorder| self.water.record(recorder, &mut self.set, &spells, events, false));
     }
 
     fn buffer<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer) -> Vec<T> {

@@ -1,13 +1,15 @@
 //! What is done to shallow water, step by step, as data.
 
 use bytemuck::{Pod, Zeroable};
+use serde::{Deserialize, Serialize};
 
 use crate::scene::{self, Spring};
 use crate::stroke::{Lattice, Random, Stream};
 
 /// One thing done to the water before a step.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Event {
     /// Lattice coordinates.
     pub centre: [f32; 2],

@@ -1,5 +1,6 @@
 //! The hand: what the brush does where it meets the surface.
 
+use crate::field::shallow_water::Event;
 use crate::field::wave::Impulse;
 use crate::scene::{Addressing, Scene, Shots};
 use crate::stroke::{self, Lattice, Random, Stream, Stroke};
@@ -9,19 +10,34 @@ use crate::stroke::{self, Lattice, Random, Stream, Stroke};
 pub enum BrushKind {
     /// A drop upon the water.
     Drop,
-    /// A shot: a crater and its scorch.
+    /// A shot: a crater and its scorch, and a ring where it hits shallow water.
     Shot,
+    /// Water, poured out.
+    Pour,
+    /// Water, taken away.
+    Drain,
 }
 
 impl BrushKind {
     /// Every kind.
-    pub const ALL: &'static [Self] = &[Self::Drop, Self::Shot];
+    pub const ALL: &'static [Self] = &[Self::Drop, Self::Shot, Self::Pour, Self::Drain];
+
+    /// Those that do something in a scene.
+    pub fn of(scene: &Scene) -> &'static [Self] {
+        match (&scene.shallow_water, &scene.wave) {
+            (Some(_), _) => &[Self::Drop, Self::Shot, Self::Pour, Self::Drain],
+            (None, Some(_)) => &[Self::Drop, Self::Shot],
+            (None, None) => &[Self::Shot],
+        }
+    }
 
     /// What the panel calls it.
     pub fn label(self) -> &'static str {
         match self {
             Self::Drop => "Drop on water",
-            Self::Shot => "Shot into the wall",
+            Self::Shot => "Shot into the ground",
+            Self::Pour => "Pour water",
+            Self::Drain => "Take water",
         }
     }
 }
@@ -43,7 +59,13 @@ impl Brush {
 
     /// What suits a scene.
     pub fn of(scene: &Scene) -> Self {
-        let kind = if scene.wave.is_some() { BrushKind::Drop } else { BrushKind::Shot };
+        let kind = if scene.shallow_water.is_some() {
+            BrushKind::Pour
+        } else if scene.wave.is_some() {
+            BrushKind::Drop
+        } else {
+            BrushKind::Shot
+        };
         Self { kind, radius_metres: 0.03 * scene.plane.width_metres, per_second: 12.0 }
     }
 
@@ -64,9 +86,17 @@ pub fn stroke(brush: &Brush, scene: &Scene, at: [f32; 2], number: u64) -> Option
         Addressing::Clamp if uv.iter().all(|along| (0.0..=1.0).contains(along)) => uv,
         Addressing::Clamp => return None,
     };
+    let radius = (f64::from(brush.radius_metres) / lattice.texel_metres) as f32;
     match brush.kind {
+        // A tenth of its radius deep: what a bucket does.
+        BrushKind::Pour | BrushKind::Drain => scene.shallow_water.as_ref().map(|_| {
+            let sign = if brush.kind == BrushKind::Pour { 0.1 } else { -0.3 };
+            Stroke::Water(Event::pour(lattice.at(uv), radius, sign * brush.radius_metres))
+        }),
+        BrushKind::Drop if scene.shallow_water.is_some() => {
+            Some(Stroke::Water(Event::dent(lattice.at(uv), 2.0 * radius, 0.3 * brush.radius_metres, 0.0)))
+        }
         BrushKind::Drop => scene.wave.as_ref().map(|_| {
-            let radius = (f64::from(brush.radius_metres) / lattice.texel_metres) as f32;
             // As deep as the heaviest drop of the rain.
             Stroke::Splash(Impulse::new(lattice.at(uv), radius, -1.0))
         }),
