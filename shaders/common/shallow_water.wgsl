@@ -2,6 +2,7 @@
 
 override SHALLOW_WATER_TILE: u32;      // side of a tile of texels: one workgroup
 override SHALLOW_WATER_WALL: u32;      // the borders' numbers
+override SHALLOW_WATER_OPEN: u32;
 override SHALLOW_WATER_SEA: u32;
 override SHALLOW_WATER_PERIODIC: u32;
 

@@ -13,7 +13,8 @@
 //
 // Specification: src/reference/shallow_water.rs. Composed after common/shallow_water.wgsl.
 
-const SHALLOW_WATER_HALO: u32 = 2u;
+// The half step takes one texel of it, the slopes of what it gives two.
+const SHALLOW_WATER_HALO: u32 = 3u;
 
 override SHALLOW_WATER_SPAN: u32;      // side of a tile with its halo
 override SHALLOW_WATER_CELLS: u32;     // cells of it
@@ -71,6 +72,9 @@ fn load_cell(texel: vec2i, slot: u32, turned: bool) -> bool {
             let border = border_of(axis, texel[axis]);
             if border == SHALLOW_WATER_WALL {
                 velocity[axis] = -velocity[axis];
+            } else if border == SHALLOW_WATER_OPEN {
+                // Out, not in.
+                velocity[axis] = select(max(velocity[axis], 0.0), min(velocity[axis], 0.0), texel[axis] < 0);
             } else if border == SHALLOW_WATER_SEA {
                 // A wave that comes in carries its own velocity with it; one that goes out meets nothing.
                 depth = max(params.sea_metres + control.rise - bed_metres, 0.0);
@@ -271,7 +275,7 @@ fn shallow_water_step(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_in
         let column = i % (tile + 1u);
         let at = start + vec2i(i32(column + SHALLOW_WATER_HALO), i32(row));
         let closed = (at.x == 0 && walls.x) || (at.x == size.x && walls.y);
-        let here = pass_second(i, row * span + column + 1u, 1u, false, closed, ratio);
+        let here = pass_second(i, row * span + column + SHALLOW_WATER_HALO - 1u, 1u, false, closed, ratio);
         speed = max(speed, select(0.0, here, at.x <= size.x && at.y >= 0 && at.y < size.y));
     }
     workgroupBarrier();
@@ -315,15 +319,16 @@ fn shallow_water_step(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_in
         let column = i % tile;
         let at = start + vec2i(i32(column), i32(row)) + i32(SHALLOW_WATER_HALO);
         let closed = (at.y == 0 && walls.z) || (at.y == size.y && walls.w);
-        let here = pass_second(i, (row + 1u) * span + column + SHALLOW_WATER_HALO, span, true, closed, ratio);
+        let here = pass_second(i, (row + SHALLOW_WATER_HALO - 1u) * span + column + SHALLOW_WATER_HALO, span, true, closed, ratio);
         speed = max(speed, select(0.0, here, at.y <= size.y && at.x < size.x));
     }
     workgroupBarrier();
     for (var k = 0u; k < 2u; k++) {
         let i = lane + k * lanes;
-        // The first and the last row of these cells are halo.
-        if i >= tile && i < (tile + 1u) * tile {
-            let face = i - tile;
+        // The first and the last rows of these cells are halo.
+        let first = (SHALLOW_WATER_HALO - 1u) * tile;
+        if i >= first && i < first + tile * tile {
+            let face = i - first;
             let at = start + vec2i(i32(face % tile), i32(face / tile)) + i32(SHALLOW_WATER_HALO);
             if all(at < size) {
                 let result = moved(kept[k], face, face + tile, ratio);

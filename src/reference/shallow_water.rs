@@ -200,25 +200,25 @@ impl Water {
                 border.is_some_and(|end| self.rules.borders[2 * axis + end] == Border::Wall)
             };
             // The midpoint rule. Half a step ahead, in first order: a cell and its neighbour twice have no slopes.
-            let first: Vec<Face> = (0..length + 3)
+            let first: Vec<Face> = (0..length + 5)
                 .map(|face| {
                     let (left, right) = (&line[face], &line[face + 1]);
-                    let closed = face > 0 && is_closed(face - 1);
+                    let closed = face > 1 && is_closed(face - 2);
                     self.face([left, left, right, right], [left.depth, right.depth], 0.5 * ratio, closed)
                 })
                 .collect();
             let mut ahead = line.clone();
-            for at in 1..length + 3 {
+            for at in 1..length + 5 {
                 ahead[at] = self.moved(&line[at], &first[at - 1], &first[at], 0.5 * ratio);
             }
             let faces: Vec<Face> = (0..=length)
                 .map(|face| {
-                    let cells = [0, 1, 2, 3].map(|cell| &ahead[face + cell]);
-                    self.face(cells, [line[face + 1].depth, line[face + 2].depth], ratio, is_closed(face))
+                    let cells = [0, 1, 2, 3].map(|cell| &ahead[face + 1 + cell]);
+                    self.face(cells, [line[face + 2].depth, line[face + 3].depth], ratio, is_closed(face))
                 })
                 .collect();
             for at in 0..length {
-                let cell = self.moved(&line[at + 2], &faces[at], &faces[at + 1], ratio);
+                let cell = self.moved(&line[at + 3], &faces[at], &faces[at + 1], ratio);
                 self.depth[index(at)] = cell.depth;
                 let flow = [cell.along * cell.depth, cell.across * cell.depth];
                 self.flow[index(at)] = if axis == 0 { flow } else { [flow[1], flow[0]] };
@@ -228,10 +228,10 @@ impl Water {
         }
     }
 
-    /// A line along an axis, with two cells beyond each border.
+    /// A line along an axis, with three cells beyond each border.
     fn line(&self, axis: usize, index: &dyn Fn(usize) -> usize, length: usize) -> Vec<Cell> {
         let n = length as i64;
-        (-2..n + 2)
+        (-3..n + 3)
             .map(|at| {
                 let end = usize::from(at >= n);
                 let border = self.rules.borders[2 * axis + end];
@@ -257,6 +257,10 @@ impl Water {
                 };
                 if outside && border == Border::Wall {
                     cell.along = -cell.along;
+                }
+                if outside && border == Border::Open {
+                    // Out, not in.
+                    cell.along = if end == 0 { cell.along.min(0.0) } else { cell.along.max(0.0) };
                 }
                 if outside && border == Border::Sea {
                     let [level, rise] = self.rules.sea;
