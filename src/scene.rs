@@ -8,6 +8,8 @@ mod framing;
 mod layer;
 mod lights;
 mod lod;
+mod noise;
+mod sequence;
 pub mod shallow_water;
 mod techniques;
 mod text;
@@ -24,6 +26,10 @@ pub use bodies::{Ball, Mesh};
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
+pub use noise::{
+    ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
+};
+pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
 pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
@@ -65,6 +71,12 @@ pub struct Scene {
     /// Shallow water over it, if any.
     #[serde(default)]
     pub shallow_water: Option<ShallowWater>,
+    /// Procedural heights over the base, if any.
+    #[serde(default)]
+    pub noise: Option<Noise>,
+    /// A numbered series of images over those, if any.
+    #[serde(default)]
+    pub sequence: Option<Sequence>,
     /// Seeded shots at the surface, if any.
     #[serde(default)]
     pub shots: Option<Shots>,
@@ -402,6 +414,8 @@ impl Default for Scene {
             base: Base::default(),
             wave: None,
             shallow_water: None,
+            noise: None,
+            sequence: None,
             shots: None,
             trace: Trace::default(),
             lod: Lod::default(),

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::*;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::{MeshSource, Shape};
-use crate::scene::{PomCounts, PyramidLeaf};
+use crate::scene::{Playback, PomCounts, PyramidLeaf};
 use crate::surface::{Shadow, Technique};
 
 fn parse(line: &str) -> Result<Command, Refusal> {
@@ -49,7 +49,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --albedo c.png --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --light-angle 2.5 --adapter llvm --backend gl -v \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --lod-exact off --light-angle 2.5 --adapter llvm --backend gl -v \
          --mesh torus --mesh-triangles 5000 --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -62,6 +62,11 @@ fn values_arrive() {
         SceneOverrides {
             height: Some("h.png".into()),
             height_range: Some([-5.0, 7.5]),
+            sequence: None,
+            sequence_colours: None,
+            images_per_second: None,
+            playback: None,
+            interpolate: None,
             text: None,
             font: None,
             albedo: Some("c.png".into()),
@@ -70,6 +75,7 @@ fn values_arrive() {
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
             lod: Some(Some(2.5)),
+            lod_keep_exact: Some(false),
             shading: None,
             samples: Some([4, 20]),
             pom_counts: Some(PomCounts::Texels),
@@ -87,6 +93,19 @@ fn values_arrive() {
     );
     let overrides = capture("--text Two\\nlines --font f.ttf").common.overrides();
     assert_eq!((overrides.text.as_deref(), overrides.font), (Some("Two\nlines"), Some("f.ttf".into())));
+    let overrides = capture(
+        "--sequence d_%05d.png --sequence-colour c --sequence-rate 12.5 --sequence-playback ping-pong --sequence-interpolate on \
+         --height-range 0,3",
+    )
+    .common
+    .overrides();
+    assert_eq!((overrides.sequence, overrides.sequence_colours), (Some("d_%05d.png".into()), Some("c".into())));
+    assert_eq!(
+        (overrides.images_per_second, overrides.playback, overrides.interpolate),
+        (Some(12.5), Some(Playback::PingPong), Some(true))
+    );
+    let exports = capture("--export wave-exr,height-png,height-png").exports();
+    assert_eq!(exports, [Export::HeightPng, Export::SourceExr("wave")]);
     assert_eq!(capture("--text -a").common.overrides().text.as_deref(), Some("-a"));
     assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));
     assert_eq!(options.channels(), [Channel::Color, Channel::Height, Channel::Lod]);
@@ -148,10 +167,14 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --split pom:hrad", "did you mean `hard`"),
         ("live --split pom@2", "--split"),
         ("live --shadow soft", "none, steep, hard, pom-soft, cone and area"),
+        ("live --lod-exact yes", "known are on and off"),
         ("live --backend vulcan", "did you mean `vulkan`"),
         ("live --adapter=", "--adapter"),
         ("capture --out DIR --channels color,hight", "did you mean `height`"),
         ("capture --out DIR --channels color,", "known are color"),
+        ("capture --out DIR --export height-pgn", "did you mean `height-png`"),
+        ("live --sequence-playback once", "loop, ping-pong and hold"),
+        ("live --sequence a --height b", "exclude each other"),
     ];
     let values = [
         ("seed", "-1 1.5 x 18446744073709551616"),
@@ -169,6 +192,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),
+        ("sequence-rate", "0 -1 nan inf x 1001"),
     ];
     let values = values.into_iter().flat_map(|(flag, values)| {
         values.split(' ').map(move |value| (format!("capture --out DIR --{flag} {value}"), format!("--{flag}")))

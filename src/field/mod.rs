@@ -13,6 +13,10 @@
 //! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
 //! | | | | *28 in every field* | | |
+//! | noise | r32float | 4 | height of the pattern, 0 to 1 | noise | compose |
+//! | | | | *4 more with noise* | | |
+//! | sequence | r32float | 4 | heights of the images, 0 to 1 | upload | compose |
+//! | | | | *4 more with sequence* | | |
 //! | water bed | r32float | 4 | height of what the water flows over, unclamped | compose | shallow water |
 //! | water depth (two) | rg32float | 16 | depth in metres, share of foam; in buffers | shallow water | shallow water |
 //! | water flow (two) | rg32float | 16 | depth times velocity, m²/s; in buffers | shallow water | shallow water |
@@ -29,10 +33,12 @@ pub mod base;
 pub mod bins;
 pub mod compose;
 pub mod dirty;
+pub mod noise;
 pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
+pub mod sequence;
 pub mod shallow_water;
 pub mod source;
 pub mod stack;
@@ -92,8 +98,12 @@ pub const CONTRACT: &[(Contract, u32)] =
     &[(Relief::CONTRACT, 1), (Material::CONTRACT, 1), (Height::CONTRACT, 1), (Normal::CONTRACT, 1), (Pyramid::CONTRACT, 1)];
 
 /// What each kind of source adds to them.
-pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] =
-    &[("shallow water", shallow_water::CONTRACT), ("wave", wave::CONTRACT)];
+pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] = &[
+    ("noise", noise::CONTRACT),
+    ("sequence", sequence::CONTRACT),
+    ("shallow water", shallow_water::CONTRACT),
+    ("wave", wave::CONTRACT),
+];
 
 /// Bytes a texel of the field that textures take together.
 pub fn bytes_per_texel<'a>(contract: impl IntoIterator<Item = &'a (Contract, u32)>) -> f64 {

@@ -229,9 +229,7 @@ fn noise(seed: u64, count: usize) -> Vec<f64> {
 
 #[test]
 fn a_lake_at_rest_stays_at_rest_around_its_islands() {
-    for (border, size) in
-        [(Border::Wall, [61, 47]), (Border::Periodic, [48, 33]), (Border::Sea, [40, 25])]
-    {
+    for (border, size) in [(Border::Wall, [61, 47]), (Border::Periodic, [48, 33]), (Border::Sea, [40, 25])] {
         let mut settings = params(size, 0.1, border);
         settings.sea_metres = 0.8;
         let Some(mut basin) = Basin::new(settings) else { return };
