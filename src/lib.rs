@@ -65,6 +65,12 @@
 //!   Detection, 1971.
 //! - **\[Zehnder\]** J. Zehnder, R. Narain, B. Thomaszewski, *An Advection-Reflection Solver for Detail-Preserving Fluid
 //!   Simulation*, SIGGRAPH 2018.
+//! - **\[Audusse\]** E. Audusse et al., *A Fast and Stable Well-Balanced Scheme with Hydrostatic Reconstruction for Shallow Water Flows*,
+//!   SIAM J. Sci. Comput. 25, 2004.
+//! - **\[KP\]** A. Kurganov, G. Petrova, *A Second-Order Well-Balanced Positivity Preserving Central-Upwind Scheme for the
+//!   Saint-Venant System*, Commun. Math. Sci. 5, 2007.
+//! - **\[Toro\]** E. F. Toro, *Shock-Capturing Methods for Free-Surface Shallow Flows*, 2001.
+//! - **\[Kennedy\]** A. Kennedy et al., *Boussinesq Modeling of Wave Transformation, Breaking, and Runup*, J. Waterway 126, 2000.
 
 pub mod camera;
 pub mod cli;

@@ -11,6 +11,7 @@ mod lights;
 mod lod;
 mod noise;
 mod sequence;
+pub mod shallow_water;
 mod techniques;
 mod text;
 mod validate;
@@ -31,6 +32,7 @@ pub use noise::{
     ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
 };
 pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
+pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -70,6 +72,9 @@ pub struct Scene {
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
+    /// Shallow water over it, if any.
+    #[serde(default)]
+    pub shallow_water: Option<ShallowWater>,
     /// Procedural heights over the base, if any.
     #[serde(default)]
     pub noise: Option<Noise>,
@@ -156,6 +161,8 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Sand that rises from the sea in the south to dunes in the north.
+    Beach {},
     /// Short fur, combed, the same that the `fur` albedo colours.
     Fur {},
     /// A lawn with daisies, the same that the `grass` albedo colours.
@@ -411,6 +418,7 @@ impl Default for Scene {
             base: Base::default(),
             gas: None,
             wave: None,
+            shallow_water: None,
             noise: None,
             sequence: None,
             shots: None,

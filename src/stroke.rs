@@ -13,6 +13,7 @@ use crate::clock::{Simulation, Tick};
 use crate::field::gas_bands::Bands;
 use crate::field::gas_emit::Puff;
 use crate::field::sequence::Images;
+use crate::field::shallow_water::{self, Event};
 use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Gas, GasEmitters, Rain, Scene, Shots};
@@ -27,6 +28,8 @@ pub enum Stroke {
     Splash(Impulse),
     /// A puff into the gas.
     Puff(Puff),
+    /// Something done to shallow water.
+    Water(Event),
 }
 
 /// All that is done to the field in one frame.
@@ -38,6 +41,8 @@ pub struct Strokes {
     pub splashes: Vec<(u32, Impulse)>,
     /// The puffs, each with the step of the frame before which it falls.
     pub puffs: Vec<(u32, Puff)>,
+    /// What is done to shallow water, each with the step of the frame before which it happens.
+    pub waters: Vec<(u32, Event)>,
     /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
     pub images: Option<Arc<Images>>,
 }
@@ -50,6 +55,11 @@ impl Strokes {
             Stroke::Splash(impulse) => self.splashes.push((0, impulse)),
             // Before those of the scene's own particles, which may fall later: the steps stay in order.
             Stroke::Puff(puff) => self.puffs.insert(0, (0, puff)),
+            // In order of their steps: a hand's come after the scene's.
+            Stroke::Water(event) => {
+                let before = self.waters.partition_point(|(step, _)| *step == 0);
+                self.waters.insert(before, (0, event));
+            }
         }
     }
 
@@ -70,6 +80,14 @@ impl Strokes {
             for step in 0..owed.steps {
                 let puffs = emitted_in_step(gas, emitters, seed, &lattice, owed.first_step + u64::from(step));
                 strokes.puffs.extend(puffs.map(|puff| (step, puff)));
+            }
+        }
+        if let Some(water) = &scene.shallow_water {
+            let owed = tick.owed(Simulation::ShallowWater);
+            for step in 0..owed.steps {
+                let number = owed.first_step + u64::from(step);
+                let events = shallow_water::events_in_step(water, seed, &lattice, number);
+                strokes.waters.extend(events.map(|event| (step, event)));
             }
         }
         if let Some(shots) = &scene.shots {
@@ -240,6 +258,8 @@ pub enum Stream {
     Hand,
     /// A gas's particles.
     Gas,
+    /// Drops on shallow water.
+    Drops,
 }
 
 /// The random numbers of one stroke. Xoshiro256++ and the conversion below are fixed for ever; `rand`'s distributions are not.

@@ -15,6 +15,9 @@ use rilievo::field::noise::{
 use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
+use rilievo::field::shallow_water::{
+    Event, ShallowWaterBatch, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSpell,
+};
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
@@ -33,7 +36,7 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 13] = [
+    let fixed: [&[&str]; 17] = [
         &["common/region", "field/compose"],
         &["common/gas", "field/gas_activity"],
         &["common/gas", "field/gas_advect"],
@@ -46,6 +49,10 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
         &["field/wave"],
+        &["common/shallow_water", "field/shallow_water"],
+        &["common/shallow_water", "field/shallow_water_disturb"],
+        &["common/shallow_water", "field/shallow_water_plan"],
+        &["common/shallow_water", "field/shallow_water_publish"],
         &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
@@ -256,6 +263,33 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("GasBatch", layout!(GasBatch { first, count })),
         ("GasMember", layout!(Member { centre, radius, disc })),
         ("GasEmitTile", layout!(Tile { tile, first, count })),
+        (
+            "ShallowWaterParams",
+            layout!(ShallowWaterParams {
+                size,
+                texel_metres,
+                depth_metres,
+                borders,
+                gravity,
+                friction,
+                dry_metres,
+                speed_cap,
+                courant,
+                rain,
+                seepage,
+                sea_metres,
+                foam_gain,
+                foam_loss,
+            }),
+        ),
+        (
+            "ShallowWaterControl",
+            layout!(ShallowWaterControl { speed, fault, remaining, dt, behind, rise, substeps, current, pending, halted }),
+        ),
+        ("ShallowWaterSpell", layout!(ShallowWaterSpell { seconds, swell_metres, swell_phase, swell_rate })),
+        ("ShallowWaterBatch", layout!(ShallowWaterBatch { first, count })),
+        ("ShallowWaterBody", layout!(ShallowWaterBody { low, high, level })),
+        ("ShallowWaterEvent", layout!(Event { centre, radius, kind, metres, foam })),
         ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
         ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
         ("WaveTile", layout!(Tile { tile, first, count })),

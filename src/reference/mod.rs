@@ -33,6 +33,7 @@ pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
 pub mod shadow_steep;
+pub mod shallow_water;
 pub mod shell;
 pub mod sky;
 pub mod stamp;

@@ -113,6 +113,7 @@ impl Scene {
         validate_base(&self.base)?;
         self.gas.as_ref().map_or(Ok(()), |gas| super::gas::validate(gas, self))?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.shallow_water.as_ref().map_or(Ok(()), |water| water.validate(self))?;
         self.noise.as_ref().map_or(Ok(()), noise::validate)?;
         self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
@@ -157,7 +158,7 @@ pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], r
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Beach {} | Base::Fur {} | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),

@@ -17,5 +17,6 @@ mod noise_scales;
 mod normal_mips;
 mod normals;
 mod pyramid;
+mod shallow_water;
 mod stamp;
 mod wave;

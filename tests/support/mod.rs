@@ -11,3 +11,4 @@ pub mod rays;
 pub mod seen;
 pub mod techniques;
 pub mod tolerances;
+pub mod water;

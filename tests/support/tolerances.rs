@@ -285,6 +285,32 @@ pub const MESH_PIXEL_CELLS: f64 = 0.05;
 /// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
 pub const MESH_PIXEL_SHARE: f64 = 2e-3;
 
+/// Depths of shallow water, of bores and fans, against the closed form, relative sums: the project's bar. Second order measures 0.0006
+/// to 0.0035 there.
+pub const WATER_DAM: f64 = 0.01;
+
+/// The dam's middle state and shock, against the six figures that they were given to.
+pub const WATER_STOKER: f64 = 1e-5;
+
+/// Thacker's paraboloid after one period, relative sum: the project's bar.
+pub const WATER_THACKER: f64 = 0.02;
+
+/// The period of a seiche: the project's bar.
+pub const WATER_SEICHE: f64 = 0.01;
+
+/// A lake at rest after 1,000 steps, in depths: the project's bar. The surface is stored as a depth, whose rounding is a thousandth of
+/// that.
+pub const WATER_REST: f64 = 1e-5;
+
+/// Drift of the mass between walls over 2,000 steps: the project's bar.
+pub const WATER_MASS: f64 = 1e-5;
+
+/// Net of a dent and its ring, in volumes of the dent: sums of some thousand f32 numbers.
+pub const WATER_NET: f64 = 1e-5;
+
+/// Water against its f64 reference after a few steps, in depths: a thin film's velocity is a quotient of small numbers, and limiters
+/// have corners, where rounding decides between two slopes.
+pub const WATER_STEPS: f64 = 2e-5;
 /// Procedural heights against their f64 reference: a place on a lattice of some 30 cells is rounded to 2⁻²⁴ of that, an octave rises
 /// by up to 3 a cell, an edge a hundredth of the field wide by 1.5 in that. Twice what was measured of any pattern.
 pub const NOISE_HEIGHT: f64 = 5e-5;

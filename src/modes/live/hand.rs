@@ -1,6 +1,7 @@
 //! The hand: what the brush does where it meets the surface.
 
 use crate::field::gas_emit::Puff;
+use crate::field::shallow_water::Event;
 use crate::field::wave::Impulse;
 use crate::scene::{Addressing, Gas, Scene, Shots};
 use crate::stroke::{self, Lattice, Random, Stream, Stroke};
@@ -10,22 +11,39 @@ use crate::stroke::{self, Lattice, Random, Stream, Stroke};
 pub enum BrushKind {
     /// A drop upon the water.
     Drop,
-    /// A shot: a crater and its scorch.
+    /// A shot: a crater and its scorch, and a ring where it hits shallow water.
     Shot,
     /// A whirling puff into the gas.
     Puff,
+    /// Water, poured out.
+    Pour,
+    /// Water, taken away.
+    Drain,
 }
 
 impl BrushKind {
     /// Every kind.
-    pub const ALL: &'static [Self] = &[Self::Drop, Self::Shot, Self::Puff];
+    pub const ALL: &'static [Self] = &[Self::Drop, Self::Shot, Self::Puff, Self::Pour, Self::Drain];
+
+    /// Those that do something in a scene.
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let does = |kind: &Self| match kind {
+            Self::Drop => scene.shallow_water.is_some() || scene.wave.is_some(),
+            Self::Shot => true,
+            Self::Puff => scene.gas.is_some(),
+            Self::Pour | Self::Drain => scene.shallow_water.is_some(),
+        };
+        Self::ALL.iter().copied().filter(does).collect()
+    }
 
     /// What the panel calls it.
     pub fn label(self) -> &'static str {
         match self {
             Self::Drop => "Drop on water",
-            Self::Shot => "Shot into the wall",
+            Self::Shot => "Shot into the ground",
             Self::Puff => "Puff into the gas",
+            Self::Pour => "Pour water",
+            Self::Drain => "Take water",
         }
     }
 }
@@ -49,6 +67,8 @@ impl Brush {
     pub fn of(scene: &Scene) -> Self {
         let kind = if scene.gas.is_some() {
             BrushKind::Puff
+        } else if scene.shallow_water.is_some() {
+            BrushKind::Pour
         } else if scene.wave.is_some() {
             BrushKind::Drop
         } else {
@@ -74,9 +94,17 @@ pub fn stroke(brush: &Brush, scene: &Scene, at: [f32; 2], number: u64) -> Option
         Addressing::Clamp if uv.iter().all(|along| (0.0..=1.0).contains(along)) => uv,
         Addressing::Clamp => return None,
     };
+    let radius = (f64::from(brush.radius_metres) / lattice.texel_metres) as f32;
     match brush.kind {
+        // A tenth of its radius deep: what a bucket does.
+        BrushKind::Pour | BrushKind::Drain => scene.shallow_water.as_ref().map(|_| {
+            let sign = if brush.kind == BrushKind::Pour { 0.1 } else { -0.3 };
+            Stroke::Water(Event::pour(lattice.at(uv), radius, sign * brush.radius_metres))
+        }),
+        BrushKind::Drop if scene.shallow_water.is_some() => {
+            Some(Stroke::Water(Event::dent(lattice.at(uv), 2.0 * radius, 0.3 * brush.radius_metres, 0.0)))
+        }
         BrushKind::Drop => scene.wave.as_ref().map(|_| {
-            let radius = (f64::from(brush.radius_metres) / lattice.texel_metres) as f32;
             // As deep as the heaviest drop of the rain.
             Stroke::Splash(Impulse::new(lattice.at(uv), radius, -1.0))
         }),
