@@ -6,10 +6,7 @@ use std::ops::Range;
 use crate::camera::Camera;
 use crate::clock::Tick;
 use crate::field::bins::BinError;
-use crate::field::compose::{Compose, ComposeSet};
-use crate::field::normal_mips::{NormalMips, NormalMipsSet};
-use crate::field::normals::{Normals, NormalsSet};
-use crate::field::pyramid::{Pyramid, PyramidSet};
+use crate::field::derive::{Derivation, Derive, DeriveSet};
 use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
 use crate::field::{Dirty, Field, Region, base, compose, normal_mips, normals, pyramid, stamp};
@@ -124,14 +121,8 @@ pub struct Frame {
     waves: Option<(Waves, WaveSet)>,
     stamps: Stamps,
     stamp_set: StampSet,
-    compose: Compose,
-    compose_set: ComposeSet,
-    normals: Normals,
-    normals_set: NormalsSet,
-    normal_mips: NormalMips,
-    normal_mips_set: NormalMipsSet,
-    pyramid: Pyramid,
-    pyramid_set: PyramidSet,
+    derive: Derive,
+    derive_set: DeriveSet,
     /// One for each choice that was ever shown: switching back costs nothing.
     surfaces: HashMap<Choice, (Surface, SurfaceSet)>,
     /// What is seen beside and instead of the bare plane; none where the plane is all.
@@ -181,11 +172,8 @@ impl Frame {
             }
             None => None,
         };
-        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let (stamp_set, compose_set, normals_set, pyramid_set) =
-            (stamps.bind(gpu, &field), compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
-        let normal_mips = NormalMips::new(gpu)?;
-        let normal_mips_set = normal_mips.bind(gpu, &field);
+        let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
+        let (stamp_set, derive_set) = (stamps.bind(gpu, &field), derive.bind(gpu, &field));
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -199,14 +187,8 @@ impl Frame {
             waves,
             stamps,
             stamp_set,
-            compose,
-            compose_set,
-            normals,
-            normals_set,
-            normal_mips,
-            normal_mips_set,
-            pyramid,
-            pyramid_set,
+            derive,
+            derive_set,
             surfaces: HashMap::new(),
             stage: None,
             mesh: start.mesh.clone(),
@@ -247,8 +229,7 @@ impl Frame {
             let set = surface.bind(gpu, &self.field);
             surfaces.insert(choice, (surface, set));
         }
-        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let normal_mips = NormalMips::new(gpu)?;
+        let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
@@ -262,8 +243,7 @@ impl Frame {
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
         self.surfaces = surfaces;
-        (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
-        self.normal_mips = normal_mips;
+        (self.stamps, self.derive, self.present) = (stamps, derive, present);
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
         }
@@ -483,24 +463,12 @@ impl Frame {
 
     /// Derives everything that depends on the layers alone, over the texels that changed.
     fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
-        let grown = |low, high| -> Vec<Region> {
-            changed.iter().flat_map(|region| region.grown(low, high, self.field.size, self.field.addressing)).collect()
-        };
-        // Compose relief and waves into the height field proper.
-        let (amplitude, current) = match (&self.scene.wave, &self.waves) {
+        let (amplitude, wave) = match (&self.scene.wave, &self.waves) {
             (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
             _ => (0.0, 0),
         };
-        self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
-        // Everything below depends on that height alone: its slope, which a texel's neighbours see …
-        let leaning = grown(1, 1);
-        self.normals.record(recorder, &self.normals_set, &leaning, slope_per_height(&self.scene));
-        // … what is left of that from afar, where the scene looks so …
-        if self.scene.lod.filters() {
-            self.normal_mips.record(recorder, &self.normal_mips_set, &leaning);
-        }
-        // … and its bounds, which the cells before a texel see.
-        self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
+        let (slope_per_height, with_mips) = (slope_per_height(&self.scene), self.scene.lod.filters());
+        self.derive.record(recorder, &self.derive_set, changed, &Derivation { amplitude, wave, slope_per_height, with_mips });
     }
 
     /// Shows the field as it stands.

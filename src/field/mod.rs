@@ -19,6 +19,7 @@
 pub mod base;
 pub mod bins;
 pub mod compose;
+pub mod derive;
 pub mod dirty;
 pub mod normal_mips;
 pub mod normals;
