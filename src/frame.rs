@@ -1,5 +1,7 @@
 //! One frame: from what was asked to radiance, top to bottom. [`Frame::record`] is the table of contents.
 
+mod reliefs;
+
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -11,13 +13,14 @@ use crate::field::stamp::{StampSet, Stamps};
 use crate::field::wave::{self, WaveSet, Waves};
 use crate::field::{Dirty, Field, Region, base, compose, normal_mips, normals, pyramid, stamp};
 use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
-use crate::mesh::{Mesh, Shape};
+use crate::mesh::{Mesh, shapes};
 use crate::present::{Present, PresentSet};
-use crate::scene::Scene;
+use crate::scene::{Plane, Scene};
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
 use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, shell, view};
+use reliefs::Still;
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,12 +35,14 @@ pub struct Start {
     pub mesh: Option<Mesh>,
     /// The picture over it, if any.
     pub colours: Option<ColourImage>,
+    /// What each of the reliefs beside it starts from, as the scene that it is alone.
+    pub reliefs: Vec<Start>,
 }
 
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None };
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, reliefs: Vec::new() };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = base::POST_MATERIAL;
@@ -48,6 +53,19 @@ impl Start {
     /// The same under a picture, if there is one.
     pub fn with_colours(self, colours: Option<ColourImage>) -> Self {
         Self { colours, ..self }
+    }
+
+    /// The same beside these reliefs, as many as the scene has.
+    pub fn with_reliefs(self, reliefs: Vec<Start>) -> Self {
+        Self { reliefs, ..self }
+    }
+
+    /// The same of a scene with another seed: a procedural base is made anew; an image has no seed, nor has a text.
+    pub fn reseeded(self, scene: &Scene) -> Self {
+        let heights = base::heights(scene).unwrap_or(self.heights);
+        let alone = scene.reliefs.iter().map(|relief| relief.alone(scene));
+        let reliefs = self.reliefs.into_iter().zip(alone).map(|(start, alone)| start.reseeded(&alone)).collect();
+        Self::new(scene, heights, self.mesh).with_colours(self.colours).with_reliefs(reliefs)
     }
 }
 
@@ -84,7 +102,7 @@ pub enum FrameError {
     #[error("{what} of {width}×{height} is beyond this adapter's limit of {limit} {unit}; {remedy}")]
     Limit {
         /// What is too large.
-        what: &'static str,
+        what: String,
         /// Its width.
         width: u32,
         /// Its height.
@@ -128,6 +146,8 @@ pub struct Frame {
     /// What is seen beside and instead of the bare plane; none where the plane is all.
     stage: Option<Stage>,
     mesh: Option<Mesh>,
+    /// The reliefs beside it, as many as the scene has.
+    reliefs: Vec<Still>,
     /// The display whose pipelines were built last.
     built_for: Option<Display>,
     present: Present,
@@ -174,6 +194,7 @@ impl Frame {
         };
         let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
         let (stamp_set, derive_set) = (stamps.bind(gpu, &field), derive.bind(gpu, &field));
+        let reliefs = stills(gpu, &derive, start)?;
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -192,6 +213,7 @@ impl Frame {
             surfaces: HashMap::new(),
             stage: None,
             mesh: start.mesh.clone(),
+            reliefs,
             built_for: None,
             present,
             radiance,
@@ -209,6 +231,9 @@ impl Frame {
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
         self.field.material.write(gpu, &start.material);
+        for (relief, start) in self.reliefs.iter_mut().zip(&start.reliefs) {
+            relief.reset(gpu, start);
+        }
         if let Some((_, set)) = &mut self.waves {
             set.reset(gpu, &self.field);
         }
@@ -238,7 +263,7 @@ impl Frame {
         }
         if let Some(stage) = &mut self.stage {
             stage.forget_pipelines();
-            stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
+            stage.prepare(gpu, &self.scene, Shows::Picture, 0)?;
         }
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
@@ -247,12 +272,13 @@ impl Frame {
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
         }
+        self.reliefs.iter_mut().for_each(Still::touch);
         self.dirty = Dirty::All;
         Ok(())
     }
 
     /// Takes over what does not change the field's contents: trace, light, material, depth, the wave's speed, damping and border.
-    /// The field's size and addressing, and whether there are waves, must be what they were.
+    /// The field's size and addressing, those of the reliefs beside it, and whether there are waves, must be what they were.
     ///
     /// # Errors
     ///
@@ -262,6 +288,7 @@ impl Frame {
         debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
         check_limits(gpu, scene, self.image_size)?;
         check_shell(scene, self.mesh.as_ref())?;
+        debug_assert!(scene.reliefs.len() == self.reliefs.len(), "each relief has its field");
         let before = std::mem::replace(&mut self.scene, scene.clone());
         if let Err(error) = self.build_surface(gpu) {
             self.scene = before;
@@ -277,6 +304,9 @@ impl Frame {
         }
         if before.plane != scene.plane || before.wave != scene.wave || before.lod.filters() != scene.lod.filters() {
             self.dirty = Dirty::All;
+        }
+        if before.reliefs != scene.reliefs || before.lod.filters() != scene.lod.filters() {
+            self.reliefs.iter_mut().for_each(Still::touch);
         }
         Ok(())
     }
@@ -337,7 +367,7 @@ impl Frame {
         }
         for (index, side) in sides.iter().enumerate() {
             if let Some(stage) = &mut self.stage {
-                stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
+                stage.prepare(gpu, &side.scene, side.display.shows, index)?;
                 continue;
             }
             let choice = side.choice();
@@ -358,14 +388,12 @@ impl Frame {
 
     fn set_stage(&mut self, gpu: &Gpu) {
         let size = traced_size(&self.scene, self.image_size);
-        let mesh = self.mesh.clone().or_else(|| {
-            let plane = || Shape::Plane.mesh(self.scene.plane_size_metres().map(|metres| metres as f32));
-            self.scene.trace.shell.then(plane)
-        });
-        match &mut self.stage {
-            Some(stage) => stage.set_mesh(gpu, mesh),
-            None => self.stage = Some(Stage::new(gpu, &self.field, mesh, size)),
-        }
+        let scene = &self.scene;
+        let own = self.mesh.clone().or_else(|| shell_of_plane(scene, &scene.plane, scene.field.size));
+        let further = self.reliefs.iter().zip(&scene.reliefs).map(|(still, relief)| still.mesh(scene, relief));
+        let fields = || std::iter::once(&self.field).chain(self.reliefs.iter().map(|still| &still.field)).collect::<Vec<_>>();
+        let stage = self.stage.get_or_insert_with(|| Stage::new(gpu, &fields(), size));
+        stage.set_meshes(gpu, std::iter::once(own).chain(further));
     }
 
     /// The mesh that carries the relief; none: the plane.
@@ -430,6 +458,9 @@ impl Frame {
         if !changed.is_empty() {
             self.derive(recorder, &changed);
         }
+        for (still, relief) in self.reliefs.iter_mut().zip(&self.scene.reliefs) {
+            still.derive(recorder, &self.derive, &self.scene, relief);
+        }
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
         Ok(())
@@ -467,7 +498,8 @@ impl Frame {
             (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
             _ => (0.0, 0),
         };
-        let (slope_per_height, with_mips) = (slope_per_height(&self.scene), self.scene.lod.filters());
+        let scene = &self.scene;
+        let (slope_per_height, with_mips) = (slope_per_height(&scene.plane, scene.field.size), scene.lod.filters());
         self.derive.record(recorder, &self.derive_set, changed, &Derivation { amplitude, wave, slope_per_height, with_mips });
     }
 
@@ -502,7 +534,8 @@ impl Frame {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
-        self.field.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
+        let reliefs = self.reliefs.iter().map(|still| still.field.memory_bytes()).sum::<u64>();
+        self.field.memory_bytes() + reliefs + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
@@ -551,16 +584,34 @@ fn traced_size(scene: &Scene, image_size: [u32; 2]) -> [u32; 2] {
 }
 
 /// Depth over the texel's width and height.
-fn slope_per_height(scene: &Scene) -> [f32; 2] {
-    let slope = scene.plane.depth_metres * scene.field.size[0] as f32 / scene.plane.width_metres;
+fn slope_per_height(plane: &Plane, field_size: [u32; 2]) -> [f32; 2] {
+    let slope = plane.depth_metres * field_size[0] as f32 / plane.width_metres;
     [slope, slope]
 }
 
+/// The plane as a mesh, where its shell is drawn.
+fn shell_of_plane(scene: &Scene, plane: &Plane, field_size: [u32; 2]) -> Option<Mesh> {
+    let tile_metres = plane.size_metres(field_size).map(|metres| metres as f32);
+    scene.trace.shell.then(|| shapes::repeated_plane(tile_metres, plane.repeat))
+}
+
+/// The reliefs beside a frame's own.
+fn stills(gpu: &Gpu, derive: &Derive, start: &Start) -> Result<Vec<Still>, FrameError> {
+    for (index, relief) in start.reliefs.iter().enumerate() {
+        check_shell(&start.scene, relief.mesh.as_ref())?;
+        if let Some(colours) = &relief.colours {
+            let what = format!("the albedo image of `reliefs[{index}]`");
+            check_texture(gpu, &what, colours.size, "scale it down")?;
+        }
+    }
+    Ok(start.reliefs.iter().map(|start| Still::new(gpu, derive, start)).collect())
+}
+
 /// Checks a texture's size against the adapter.
-fn check_texture(gpu: &Gpu, what: &'static str, size: [u32; 2], remedy: &'static str) -> Result<(), FrameError> {
+fn check_texture(gpu: &Gpu, what: &str, size: [u32; 2], remedy: &'static str) -> Result<(), FrameError> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if size.iter().any(|&edge| edge > limit) {
-        let (limit, unit) = (u64::from(limit), "texels an axis");
+        let (limit, unit, what) = (u64::from(limit), "texels an axis", what.to_owned());
         return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit, remedy });
     }
     Ok(())
@@ -583,6 +634,10 @@ fn check_shell(scene: &Scene, mesh: Option<&Mesh>) -> Result<(), FrameError> {
 pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<(), FrameError> {
     let limits = gpu.device.limits();
     check_texture(gpu, "a field", scene.field.size, "ask for a smaller one with --field")?;
+    for (index, relief) in scene.reliefs.iter().enumerate() {
+        let what = format!("the field of `reliefs[{index}]`");
+        check_texture(gpu, &what, relief.field.size, "give it a smaller `field.size` in the scene")?;
+    }
     let ways_out = "ask for a smaller one with --size, or for less supersampling in the scene";
     let traced = image_size.map(|pixels| pixels.saturating_mul(scene.trace.supersampling));
     check_texture(gpu, "a picture", traced, ways_out)?;
@@ -591,6 +646,7 @@ pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<()
         let row = u64::from((4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
         if row * u64::from(size[1]) > limits.max_buffer_size {
             let limit = limits.max_buffer_size;
+            let what = str::to_owned(what);
             return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit: "bytes", remedy });
         }
         Ok(())

@@ -7,6 +7,7 @@ mod bodies;
 mod framing;
 mod lights;
 mod lod;
+mod reliefs;
 mod techniques;
 mod text;
 mod validate;
@@ -21,6 +22,7 @@ use crate::surface::{Albedo, Shading, Shadow, Technique};
 pub use bodies::{Ball, Mesh};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
+pub use reliefs::{RELIEFS_MAX, Relief};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -82,6 +84,9 @@ pub struct Scene {
     /// Balls beside the relief, which cast shadows upon it and are mirrored in it.
     #[serde(default)]
     pub balls: Vec<Ball>,
+    /// Still reliefs beside it, seven at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reliefs: Vec<Relief>,
     /// Where it is seen from.
     #[serde(default)]
     pub camera: Camera,
@@ -398,6 +403,7 @@ impl Default for Scene {
             material: Material::default(),
             mesh: None,
             balls: Vec::new(),
+            reliefs: Vec::new(),
             camera: Camera::default(),
         }
     }

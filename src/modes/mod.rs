@@ -32,7 +32,7 @@ pub enum ModeError {
     #[error(transparent)]
     Shader(#[from] ShaderError),
     /// The specification does not say what the scene shows.
-    #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
+    #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell, balls or further reliefs: leave it out for exact")]
     NoReference,
     /// The table does not hold against an earlier one.
     #[error(transparent)]
@@ -72,7 +72,8 @@ pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError>
 /// What a frame starts from. Makes as many heights as the field has texels: check the size against the adapter first.
 pub fn start(loaded: &LoadedScene) -> Start {
     let (heights, colours) = loaded.layers();
-    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours)
+    let reliefs = loaded.reliefs.iter().map(start).collect();
+    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_reliefs(reliefs)
 }
 
 /// Waits for bytes on their way from the GPU.

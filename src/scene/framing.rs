@@ -2,17 +2,24 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Camera, Scene};
+use super::{Camera, Plane, Scene};
 
 /// How much of the picture's half width and height the plane's corners may take: a little air remains around it.
 const MARGIN: f64 = 0.98;
 
+impl Plane {
+    /// Extent along x and z under a field of this size, metres: texels are square.
+    pub fn size_metres(&self, field_size: [u32; 2]) -> [f64; 2] {
+        let [width, height] = field_size.map(f64::from);
+        let x = f64::from(self.width_metres);
+        [x, x * height / width]
+    }
+}
+
 impl Scene {
     /// Extent of the plane along x and z, metres: texels are square.
     pub fn plane_size_metres(&self) -> [f64; 2] {
-        let [width, height] = self.field.size.map(f64::from);
-        let x = f64::from(self.plane.width_metres);
-        [x, x * height / width]
+        self.plane.size_metres(self.field.size)
     }
 
     /// Side of a texel, metres.

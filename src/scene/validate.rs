@@ -6,8 +6,8 @@ use crate::surface::Albedo;
 use crate::surface::view::BALLS_MAX;
 
 use super::{
-    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace,
-    VERSION, Wave, check_text,
+    Ball, Base, Camera, DirectionalLight, FieldSettings, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Plane,
+    RELIEFS_MAX, Relief, Scene, Shots, Text, Trace, VERSION, Wave, check_text,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -93,6 +93,16 @@ pub enum SceneError {
     },
 }
 
+impl SceneError {
+    /// The same of a key that stands in this table.
+    fn within(self, table: &str) -> Self {
+        match self {
+            Self::Value { key, value, allowed } => Self::Value { key: format!("{table}.{key}"), value, allowed },
+            Self::Version { .. } => self,
+        }
+    }
+}
+
 impl Scene {
     /// Checks every value against its range, and the stability of the wave.
     ///
@@ -101,25 +111,15 @@ impl Scene {
         if self.version != VERSION {
             return Err(SceneError::Version { found: self.version });
         }
-        if self.field.size.contains(&0) {
-            let [width, height] = self.field.size;
-            return refuse("field.size", format!("[{width}, {height}]"), "at least 1 texel wide and high");
-        }
-        number("plane.width_metres", self.plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
-        number("plane.depth_metres", self.plane.depth_metres, DEPTH_METRES)?;
-        // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
-        let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
-        numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
-        validate_base(&self.base)?;
+        validate_relief(&self.field, &self.plane, &self.base, &self.material, self.mesh.as_ref())?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
-        validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
-        self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
         validate_balls(&self.balls)?;
+        validate_reliefs(&self.reliefs)?;
         validate_camera(&self.camera)
     }
 }
@@ -148,6 +148,45 @@ fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range
 
 fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
+}
+
+/// What every relief has, the scene's own and those beside it.
+fn validate_relief(
+    field: &FieldSettings,
+    plane: &Plane,
+    base: &Base,
+    material: &Material,
+    mesh: Option<&Mesh>,
+) -> Result<(), SceneError> {
+    if field.size.contains(&0) {
+        let [width, height] = field.size;
+        return refuse("field.size", format!("[{width}, {height}]"), "at least 1 texel wide and high");
+    }
+    number("plane.width_metres", plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
+    number("plane.depth_metres", plane.depth_metres, DEPTH_METRES)?;
+    // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
+    let most = (1 << 24) / field.size[0].max(field.size[1]);
+    numbers("plane.repeat", &plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
+    validate_base(base)?;
+    validate_material(material, matches!(base, Base::StillLife {}))?;
+    mesh.map_or(Ok(()), validate_mesh)
+}
+
+fn validate_reliefs(reliefs: &[Relief]) -> Result<(), SceneError> {
+    if reliefs.len() > RELIEFS_MAX {
+        let allowed = format!("at most {RELIEFS_MAX} beside the scene's own: remove some");
+        return refuse("reliefs", format!("a list of {}", reliefs.len()), allowed);
+    }
+    reliefs.iter().enumerate().try_for_each(|(i, relief)| {
+        let own = format!("reliefs[{i}]");
+        numbers(&format!("{own}.position_metres"), &relief.position_metres, Range::from_to(-1e6, 1e6, "metres"))?;
+        let turn = Range::from_to(-3600.0, 3600.0, "degrees");
+        number(format!("{own}.yaw_degrees"), relief.yaw_degrees, turn)?;
+        number(format!("{own}.pitch_degrees"), relief.pitch_degrees, turn)?;
+        number(format!("{own}.roll_degrees"), relief.roll_degrees, turn)?;
+        let Relief { field, plane, base, material, mesh, .. } = relief;
+        validate_relief(field, plane, base, material, mesh.as_ref()).map_err(|error| error.within(&own))
+    })
 }
 
 fn validate_base(base: &Base) -> Result<(), SceneError> {
@@ -348,6 +387,11 @@ mod tests {
     /// A scene with every optional part, so that every range is reached.
     fn full() -> Scene {
         let obstacle = Obstacle { centre: [0.5, 0.5], half_extent_metres: [0.1, 0.1], corner_metres: 0.0, top: 1.0 };
+        let relief = Relief {
+            base: Base::Text(Text::default()),
+            mesh: Some(Mesh { radius_metres: Some(1.0), tiles: [1.0; 2], ..Mesh::default() }),
+            ..Relief::default()
+        };
         Scene {
             wave: Some(Wave {
                 boundary: Boundary::Absorbing,
@@ -358,6 +402,7 @@ mod tests {
             shots: Some(Shots::default()),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
+            reliefs: vec![relief],
             ..Scene::default()
         }
     }
@@ -368,6 +413,22 @@ mod tests {
         scene.lights.push(DirectionalLight::default());
         let error = scene.validate().expect_err("five lights").to_string();
         assert!(error.contains("at most 3 beside `[light]`"), "{error}");
+    }
+
+    #[test]
+    fn an_eighth_relief_is_refused_and_another_says_which_it_is() {
+        let mut scene = Scene { reliefs: vec![Relief::default(); RELIEFS_MAX + 1], ..Scene::default() };
+        let error = scene.validate().expect_err("eight").to_string();
+        assert!(error.contains("`reliefs` is a list of 8") && error.contains("at most 7 beside the scene's own"), "{error}");
+        scene.reliefs.pop();
+        assert_eq!(scene.validate(), Ok(()));
+        scene.reliefs[6].field.size = [0, 8];
+        scene.reliefs[6].material.albedo = Albedo::Image;
+        let error = scene.validate().expect_err("no texel").to_string();
+        assert!(error.starts_with("`reliefs[6].field.size` is [0, 8]"), "{error}");
+        scene.reliefs[6].field.size = [8, 8];
+        let error = scene.validate().expect_err("no image").to_string();
+        assert!(error.starts_with("`reliefs[6].material.albedo` is image"), "{error}");
     }
 
     #[test]

@@ -11,6 +11,7 @@ pub mod micropolygon;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;
+pub mod reliefs;
 pub mod shell;
 pub mod stage;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
@@ -52,6 +53,8 @@ pub struct Choice {
     pub balls: bool,
     /// Whether the material mirrors its surroundings.
     pub reflects: bool,
+    /// Whether other reliefs cast their shadows on it.
+    pub reliefs: bool,
 }
 
 impl Choice {
@@ -70,6 +73,7 @@ impl Choice {
             detail: false,
             balls: false,
             reflects: false,
+            reliefs: false,
         }
     }
 
@@ -84,6 +88,7 @@ impl Choice {
             detail,
             balls,
             reflects,
+            reliefs: reliefs::are_seen(scene),
             ..Self::tracing(trace.technique, trace.shadow)
         }
     }
@@ -104,6 +109,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         if caps_level { "level_cap" } else { technique.stem() },
         shadow.stem(),
         "sky",
+        "reliefs",
         "balls",
         "matter",
         "transparent",
@@ -136,7 +142,8 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
 
 /// The `override`s that Rust owns in a composition of [`parts`], besides those of its entry points.
 pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
-    let switches = [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects)];
+    let switches =
+        [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects), ("RELIEFS", choice.reliefs)];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![

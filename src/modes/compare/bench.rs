@@ -32,6 +32,8 @@ pub struct Bench {
     mesh: Option<Mesh>,
     /// The colours of albedo `image`.
     colours: Option<ColourImage>,
+    /// What the reliefs beside it start from.
+    reliefs: Vec<Start>,
     picture: Picture,
     tick: Tick,
     /// One for each choice that was shown: a shader takes a while to build.
@@ -84,6 +86,7 @@ impl Bench {
             scene: scene.clone(),
             mesh: start.mesh.clone(),
             colours: start.colours.clone(),
+            reliefs: start.reliefs.clone(),
             picture,
             tick,
             passes: HashMap::new(),
@@ -106,7 +109,8 @@ impl Bench {
         let row = |y: u32| nearest(y, 1) * from[0] as usize;
         let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let material = texels.map(|(x, y)| material[row(y) + nearest(x, 0)]).collect();
-        let start = Start { scene, heights, material, mesh: self.mesh.clone(), colours: self.colours.clone() };
+        let (mesh, colours, reliefs) = (self.mesh.clone(), self.colours.clone(), self.reliefs.clone());
+        let start = Start { scene, heights, material, mesh, colours, reliefs };
         let image_size = self.frame.image_size();
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT)?;
         frame.timer = trusted_timer(gpu);
@@ -116,6 +120,7 @@ impl Bench {
             scene: start.scene,
             mesh: start.mesh,
             colours: start.colours,
+            reliefs: start.reliefs,
             picture,
             tick: self.tick,
             passes: HashMap::new(),

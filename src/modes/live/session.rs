@@ -11,7 +11,7 @@ use super::pick::Picker;
 use super::readings::Readings;
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
-use crate::field::{self, base};
+use crate::field;
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
 use crate::io::{png_file, shader_folder};
@@ -225,10 +225,7 @@ impl Session {
         self.panel.scene.seed = seed;
         self.panel.original.seed = seed;
         self.apply_scene();
-        // An image has no seed, nor has a text.
-        if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone()).with_colours(self.start.colours.take());
-        }
+        self.start = self.start.clone().reseeded(&self.panel.scene);
         self.restart();
         self.panel.say(format!("Seed {seed}"));
     }

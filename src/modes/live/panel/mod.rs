@@ -8,6 +8,7 @@ mod detail;
 mod keys;
 mod light;
 mod material;
+mod reliefs;
 mod scene;
 mod simulation;
 mod split;
@@ -49,6 +50,8 @@ pub struct Panel {
     pub display: Display,
     /// Which of the lights the panel shows, the scene's own is 0.
     pub light: usize,
+    /// Which of the reliefs beside the scene's own it shows.
+    pub relief: usize,
     /// The left mouse button.
     pub brush: Brush,
     /// Whether the simulation stands.
@@ -73,6 +76,7 @@ impl Panel {
             scenes,
             display: Display::default(),
             light: 0,
+            relief: 0,
             paused: false,
             flies: false,
             shown: true,
@@ -87,6 +91,7 @@ impl Panel {
         self.original = scene.clone();
         self.scene = scene;
         self.light = 0;
+        self.relief = 0;
     }
 
     /// Shows another view, on both sides of a divider.
@@ -194,6 +199,7 @@ impl Panel {
         self.detail_group(ui);
         self.light_group(ui);
         self.material_group(ui);
+        self.reliefs_group(ui);
         self.simulation_group(ui);
         self.brush_group(ui);
         self.camera_group(ui, actions);
