@@ -6,13 +6,13 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::camera::Camera;
-use crate::clock::Tick;
+use crate::clock::{StepSeconds, Tick};
 use crate::field::bins::BinError;
 use crate::field::derive::{Derivation, Derive, DeriveSet};
+use crate::field::source::{self, Health, State};
 use crate::field::stamp::{StampSet, Stamps};
-use crate::field::wave::{self, WaveSet, Waves};
-use crate::field::{Dirty, Field, Region, base, compose, normal_mips, normals, pyramid, stamp};
-use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
+use crate::field::{self, Cover, Field, Region, Stack, base, normal_mips, normals, pyramid, stack, stamp};
+use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::mesh::{Mesh, shapes};
 use crate::present::{Present, PresentSet};
 use crate::scene::{Plane, Scene};
@@ -20,7 +20,7 @@ use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
 use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, shell, view};
-use reliefs::Still;
+use reliefs::Stills;
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +42,28 @@ pub struct Start {
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, reliefs: Vec::new() };
+        let mut start =
+            Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, reliefs: Vec::new() };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = base::POST_MATERIAL;
         }
         start
+    }
+
+    /// Takes over a scene with the same field. Another seed makes another base, where the base is the program's own; an image has no
+    /// seed, nor has a text.
+    pub fn take_scene(&mut self, scene: &Scene) {
+        if scene.seed != self.scene.seed
+            && let Some(heights) = base::heights(scene)
+        {
+            let reliefs = std::mem::take(&mut self.reliefs);
+            *self = Self::new(scene, heights, self.mesh.take()).with_colours(self.colours.take()).with_reliefs(reliefs);
+        }
+        self.scene = scene.clone();
+        for (start, relief) in self.reliefs.iter_mut().zip(&scene.reliefs) {
+            start.take_scene(&relief.alone(scene));
+        }
     }
 
     /// The same under a picture, if there is one.
@@ -58,14 +74,6 @@ impl Start {
     /// The same beside these reliefs, as many as the scene has.
     pub fn with_reliefs(self, reliefs: Vec<Start>) -> Self {
         Self { reliefs, ..self }
-    }
-
-    /// The same of a scene with another seed: a procedural base is made anew; an image has no seed, nor has a text.
-    pub fn reseeded(self, scene: &Scene) -> Self {
-        let heights = base::heights(scene).unwrap_or(self.heights);
-        let alone = scene.reliefs.iter().map(|relief| relief.alone(scene));
-        let reliefs = self.reliefs.into_iter().zip(alone).map(|(start, alone)| start.reseeded(&alone)).collect();
-        Self::new(scene, heights, self.mesh).with_colours(self.colours).with_reliefs(reliefs)
     }
 }
 
@@ -136,7 +144,7 @@ pub struct Frame {
     view_set: ViewSet,
     /// The view of the right side, where the picture is split.
     right_view_set: ViewSet,
-    waves: Option<(Waves, WaveSet)>,
+    stack: Stack,
     stamps: Stamps,
     stamp_set: StampSet,
     derive: Derive,
@@ -147,22 +155,19 @@ pub struct Frame {
     stage: Option<Stage>,
     mesh: Option<Mesh>,
     /// The reliefs beside it, as many as the scene has.
-    reliefs: Vec<Still>,
+    reliefs: Stills,
     /// The display whose pipelines were built last.
     built_for: Option<Display>,
     present: Present,
     radiance: Texture<Radiance>,
     present_set: PresentSet,
     image_size: [u32; 2],
-    /// The texels whose layers changed since the height field was derived from them.
-    dirty: Dirty,
     traffic: Traffic,
 }
 
 /// What the field's passes of one frame touched, for the account of its bytes.
 #[derive(Clone, Copy, Debug, Default)]
 struct Traffic {
-    wave_steps: u32,
     stamped_texels: u64,
     derived_texels: u64,
 }
@@ -177,24 +182,17 @@ impl Frame {
         let scene = start.scene.clone();
         check_limits(gpu, &scene, image_size)?;
         check_shell(&scene, start.mesh.as_ref())?;
-        let mut field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
+        let mut field = Field::new(gpu, scene.field.size, scene.field.addressing, stack::covers(&scene));
         if let Some(colours) = &start.colours {
             check_texture(gpu, "an albedo image", colours.size, "scale it down")?;
             field.albedo_map = albedo_image::upload(gpu, colours);
         }
         let view_layout = view::layout(gpu);
         let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
-        let waves = match &scene.wave {
-            Some(wave) => {
-                let waves = Waves::new(gpu)?;
-                let set = waves.bind(gpu, &field, wave, scene.plane_size_metres());
-                Some((waves, set))
-            }
-            None => None,
-        };
+        let stack = Stack::new(gpu, &field, &scene)?;
         let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
         let (stamp_set, derive_set) = (stamps.bind(gpu, &field), derive.bind(gpu, &field));
-        let reliefs = stills(gpu, &derive, start)?;
+        let reliefs = Stills::new(gpu, &derive, start)?;
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -205,7 +203,7 @@ impl Frame {
             view_layout,
             view_set,
             right_view_set,
-            waves,
+            stack,
             stamps,
             stamp_set,
             derive,
@@ -219,7 +217,6 @@ impl Frame {
             radiance,
             present_set,
             image_size,
-            dirty: Dirty::All,
             traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
@@ -227,17 +224,12 @@ impl Frame {
         Ok(frame)
     }
 
-    /// Puts the field back to its start: the relief as it was, the water still.
+    /// Puts the field back to its start: the relief as it was, every source at its beginning.
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
         self.field.material.write(gpu, &start.material);
-        for (relief, start) in self.reliefs.iter_mut().zip(&start.reliefs) {
-            relief.reset(gpu, start);
-        }
-        if let Some((_, set)) = &mut self.waves {
-            set.reset(gpu, &self.field);
-        }
-        self.dirty = Dirty::All;
+        self.stack.reset(gpu, &self.scene);
+        self.reliefs.reset(gpu, start);
     }
 
     /// Builds every pass anew from the device's present shaders, and leaves the field as it is.
@@ -255,7 +247,6 @@ impl Frame {
             surfaces.insert(choice, (surface, set));
         }
         let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
-        let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
         if let Some(message) = gpu.take_error() {
@@ -265,30 +256,27 @@ impl Frame {
             stage.forget_pipelines();
             stage.prepare(gpu, &self.scene, Shows::Picture, 0)?;
         }
+        self.reliefs.reload(gpu)?;
+        self.stack.reload(gpu, &self.field)?;
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
         self.surfaces = surfaces;
         (self.stamps, self.derive, self.present) = (stamps, derive, present);
-        if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
-            *waves = new;
-        }
-        self.reliefs.iter_mut().for_each(Still::touch);
-        self.dirty = Dirty::All;
         Ok(())
     }
 
-    /// Takes over what does not change the field's contents: trace, light, material, depth, the wave's speed, damping and border.
-    /// The field's size and addressing, those of the reliefs beside it, and whether there are waves, must be what they were.
+    /// Takes over what does not change the field's contents: trace, light, material, depth, the settings of its sources.
+    /// The field's size and addressing, those of the reliefs beside it, and which sources there are, must be what they were.
     ///
     /// # Errors
     ///
     /// The picture's size with the new supersampling is beyond the adapter's limits, or a shader does not compile: the frame
     /// goes on with what it had.
     pub fn set_scene(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), FrameError> {
-        debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
+        debug_assert!(scene.field == self.scene.field && stack::kinds(scene) == stack::kinds(&self.scene));
         check_limits(gpu, scene, self.image_size)?;
         check_shell(scene, self.mesh.as_ref())?;
-        debug_assert!(scene.reliefs.len() == self.reliefs.len(), "each relief has its field");
+        debug_assert!(scene.reliefs.len() == self.scene.reliefs.len(), "each relief has its field");
         let before = std::mem::replace(&mut self.scene, scene.clone());
         if let Err(error) = self.build_surface(gpu) {
             self.scene = before;
@@ -297,16 +285,11 @@ impl Frame {
         if before.trace.supersampling != scene.trace.supersampling {
             self.retarget(gpu);
         }
-        if let (Some((_, set)), Some(wave)) = (&mut self.waves, &scene.wave)
-            && (before.wave != scene.wave || before.plane.width_metres != scene.plane.width_metres)
-        {
-            set.set_scene(gpu, &self.field, wave, scene.plane_size_metres());
-        }
-        if before.plane != scene.plane || before.wave != scene.wave || before.lod.filters() != scene.lod.filters() {
-            self.dirty = Dirty::All;
+        if before.plane != scene.plane || stack::differ(&before, scene) || before.lod.filters() != scene.lod.filters() {
+            self.stack.set_scene(gpu, scene);
         }
         if before.reliefs != scene.reliefs || before.lod.filters() != scene.lod.filters() {
-            self.reliefs.iter_mut().for_each(Still::touch);
+            self.reliefs.touch();
         }
         Ok(())
     }
@@ -390,10 +373,9 @@ impl Frame {
         let size = traced_size(&self.scene, self.image_size);
         let scene = &self.scene;
         let own = self.mesh.clone().or_else(|| shell_of_plane(scene, &scene.plane, scene.field.size));
-        let further = self.reliefs.iter().zip(&scene.reliefs).map(|(still, relief)| still.mesh(scene, relief));
-        let fields = || std::iter::once(&self.field).chain(self.reliefs.iter().map(|still| &still.field)).collect::<Vec<_>>();
+        let fields = || std::iter::once(&self.field).chain(self.reliefs.fields()).collect::<Vec<_>>();
         let stage = self.stage.get_or_insert_with(|| Stage::new(gpu, &fields(), size));
-        stage.set_meshes(gpu, std::iter::once(own).chain(further));
+        stage.set_meshes(gpu, std::iter::once(own).chain(self.reliefs.meshes(scene)));
     }
 
     /// The mesh that carries the relief; none: the plane.
@@ -416,10 +398,9 @@ impl Frame {
         self.image_size
     }
 
-    /// The simulation's time step, seconds; none where nothing is simulated.
-    pub fn step_seconds(&self) -> Option<f64> {
-        let wave = self.scene.wave.as_ref()?;
-        Some(wave::step_seconds(wave, self.scene.texel_metres()))
+    /// The step of each simulation, seconds.
+    pub fn step_seconds(&self) -> StepSeconds {
+        source::step_seconds(&self.scene)
     }
 
     /// Records one frame. Where nobody looks (`target` is `None`) it only does to the layers what is to be done.
@@ -436,31 +417,22 @@ impl Frame {
     ) -> Result<(), FrameError> {
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         self.traffic = Traffic::default();
-        // Advance the waves by the steps that the clock owes, with the drops that fall before each.
-        if let Some((waves, set)) = &mut self.waves {
-            if waves.record(recorder, set, input.tick.steps, &input.strokes.splashes)? {
-                self.dirty = Dirty::All;
-            }
-            self.traffic.wave_steps = input.tick.steps;
-        }
         // Press this frame's stamps into the relief.
         let pressed = self.stamps.record(recorder, &mut self.stamp_set, &input.strokes.presses)?;
         self.traffic.stamped_texels = self.stamp_set.touched_texels();
-        for region in pressed.regions(self.field.size) {
-            self.dirty.add(region, self.field.size);
-        }
+        self.stack.relief_changed(&pressed, self.field.size);
+        // Advance what moves over it by the steps that the clock owes, with what disturbs it.
+        self.stack.advance(recorder, &self.scene, input.tick, input.strokes, self.field.size)?;
         let Some(target) = target else { return Ok(()) };
         self.build_for(gpu, &input.display)?;
-        // Derive what depends on the layers, where they changed.
-        let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
-        self.traffic.derived_texels = changed.iter().map(Region::area).sum();
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
+        // Compose relief and sources into the height field proper …
+        let changed = self.stack.compose_top(recorder, &self.scene, self.field.size);
+        self.traffic.derived_texels = changed.iter().map(Region::area).sum();
         if !changed.is_empty() {
             self.derive(recorder, &changed);
         }
-        for (still, relief) in self.reliefs.iter_mut().zip(&self.scene.reliefs) {
-            still.derive(recorder, &self.derive, &self.scene, relief);
-        }
+        self.reliefs.derive(recorder, &self.derive, &self.scene);
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
         Ok(())
@@ -492,15 +464,11 @@ impl Frame {
         Ok(())
     }
 
-    /// Derives everything that depends on the layers alone, over the texels that changed.
+    /// Derives everything that depends on the heights alone, over the texels that changed.
     fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
-        let (amplitude, wave) = match (&self.scene.wave, &self.waves) {
-            (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
-            _ => (0.0, 0),
-        };
         let scene = &self.scene;
         let (slope_per_height, with_mips) = (slope_per_height(&scene.plane, scene.field.size), scene.lod.filters());
-        self.derive.record(recorder, &self.derive_set, changed, &Derivation { amplitude, wave, slope_per_height, with_mips });
+        self.derive.record(recorder, &self.derive_set, changed, Derivation { slope_per_height, with_mips });
     }
 
     /// Shows the field as it stands.
@@ -529,25 +497,44 @@ impl Frame {
         present.record(recorder, present_set, supersampling, &input.display, self.image_size[0], target);
     }
 
+    /// Bytes a texel of the field that the textures of its stack take together.
+    pub fn field_bytes_per_texel(&self) -> f64 {
+        let cover = if stack::covers(&self.scene) { Cover::CONTRACT.bytes_per_texel() } else { 0.0 };
+        field::bytes_per_texel(field::CONTRACT.iter().chain(self.stack.contract())) + cover
+    }
+
+    /// All that the field remembers from frame to frame, by name: its own layers, and each source's.
+    pub fn states(&self) -> Vec<(&'static str, State<'_>)> {
+        let layers = vec![&self.field.relief.texture, &self.field.material.texture];
+        let own = State { textures: layers, ..State::default() };
+        std::iter::once(("field", own)).chain(self.stack.states()).collect()
+    }
+
+    /// Takes over the numbers of [`Frame::states`], in their order; textures and buffers have been overwritten already.
+    pub fn restore(&mut self, numbers: &[Vec<u64>]) {
+        self.stack.restore(numbers.get(1..).unwrap_or_default());
+    }
+
+    /// How each source fares, with its name.
+    pub fn health(&mut self, gpu: &Gpu) -> Vec<(&'static str, Health)> {
+        self.stack.health(gpu)
+    }
+
     /// Bytes of GPU memory of every texture.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
-        let reliefs = self.reliefs.iter().map(|still| still.field.memory_bytes()).sum::<u64>();
+        let reliefs = self.reliefs.memory_bytes() + self.stack.memory_bytes();
         self.field.memory_bytes() + reliefs + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
     /// tiles that a changed region is rounded to, are not counted.
     pub fn field_traffic_bytes(&self) -> u64 {
-        let texels = u64::from(self.field.size[0]) * u64::from(self.field.size[1]);
-        let waves = if self.waves.is_some() { 4 } else { 0 };
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
-        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
-        u64::from(self.traffic.wave_steps) * texels * wave::TEXEL_BYTES
-            + self.traffic.stamped_texels * stamp::TEXEL_BYTES
-            + self.traffic.derived_texels * derived
+        let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
+        self.stack.traffic_bytes() + self.traffic.stamped_texels * stamp::TEXEL_BYTES + self.traffic.derived_texels * derived
     }
 
     /// Bytes that tracing and presenting one picture reads and writes by design, where a view ray takes so many steps.
@@ -593,18 +580,6 @@ fn slope_per_height(plane: &Plane, field_size: [u32; 2]) -> [f32; 2] {
 fn shell_of_plane(scene: &Scene, plane: &Plane, field_size: [u32; 2]) -> Option<Mesh> {
     let tile_metres = plane.size_metres(field_size).map(|metres| metres as f32);
     scene.trace.shell.then(|| shapes::repeated_plane(tile_metres, plane.repeat))
-}
-
-/// The reliefs beside a frame's own.
-fn stills(gpu: &Gpu, derive: &Derive, start: &Start) -> Result<Vec<Still>, FrameError> {
-    for (index, relief) in start.reliefs.iter().enumerate() {
-        check_shell(&start.scene, relief.mesh.as_ref())?;
-        if let Some(colours) = &relief.colours {
-            let what = format!("the albedo image of `reliefs[{index}]`");
-            check_texture(gpu, &what, colours.size, "scale it down")?;
-        }
-    }
-    Ok(start.reliefs.iter().map(|start| Still::new(gpu, derive, start)).collect())
 }
 
 /// Checks a texture's size against the adapter.

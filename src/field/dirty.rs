@@ -42,6 +42,15 @@ impl Dirty {
         }
     }
 
+    /// Adds all that another holds.
+    pub fn merge(&mut self, other: &Self, field: [u32; 2]) {
+        match other {
+            Self::Nothing => {}
+            Self::Regions(regions) => regions.iter().for_each(|region| self.add(*region, field)),
+            Self::All => *self = Self::All,
+        }
+    }
+
     /// The regions to derive anew in a field of this size.
     pub fn regions(&self, field: [u32; 2]) -> Vec<Region> {
         match self {

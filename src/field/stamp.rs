@@ -5,6 +5,7 @@
 //! Shader: `shaders/field/stamp.wgsl`. Specification: [`crate::reference::stamp`].
 
 use bytemuck::{Pod, Zeroable};
+use serde::{Deserialize, Serialize};
 
 use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
 use super::{Dirty, Field};
@@ -15,7 +16,8 @@ use crate::scene::Addressing;
 pub const TEXEL_BYTES: u64 = 16;
 
 /// The form of a stamp: its profile p over ρ, the distance from its centre in radii. Each is 0 from ρ = 1 on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[repr(u32)]
 pub enum Profile {
     /// 1 everywhere, with a hard edge.
@@ -61,7 +63,8 @@ pub const CRATER_LIP: f64 = 0.1;
 pub const CRATER_GRAIN: f64 = 0.06;
 
 /// How a stamp meets what is there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[repr(u32)]
 pub enum Blend {
     /// layer + height·p.
@@ -81,7 +84,8 @@ impl Blend {
 }
 
 /// One stamp.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stamp {
     /// Its centre, lattice coordinates.
     pub centre: [f32; 2],

@@ -1,10 +1,12 @@
-//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out.
+//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out; journals and states
+//! both ways.
 
 pub mod atomic;
 pub mod colour_image;
 pub mod exr_file;
 pub mod font;
 pub mod height_image;
+pub mod journal;
 pub mod manifest;
 pub mod mesh_file;
 pub mod output_dir;
@@ -12,6 +14,7 @@ pub mod png_file;
 mod resample;
 pub mod scene_file;
 pub mod shader_folder;
+pub mod state_file;
 
 use std::io::Write as _;
 

@@ -63,15 +63,19 @@ impl Relief {
     /// The scene that it would be by itself, about the origin: what makes heights and pictures of a scene makes them of it.
     pub fn alone(&self, scene: &Scene) -> Scene {
         Scene {
+            seed: scene.seed,
             field: self.field.clone(),
             plane: self.plane.clone(),
             base: self.base.clone(),
-            wave: None,
-            shots: None,
+            trace: scene.trace.clone(),
+            lod: scene.lod.clone(),
+            light: scene.light.clone(),
+            lights: scene.lights.clone(),
             material: self.material.clone(),
             mesh: self.mesh.clone(),
-            reliefs: Vec::new(),
-            ..scene.clone()
+            balls: scene.balls.clone(),
+            camera: scene.camera.clone(),
+            ..Scene::default()
         }
     }
 }

@@ -190,7 +190,8 @@ impl Stage {
         for (index, (alone, placement)) in reliefs_of(scene).into_iter().enumerate().take(self.carriers.len()) {
             let choice = Choice { reliefs, ..Choice::of(&alone) }.showing(display.shows);
             let target = target(&alone, placement);
-            let view = View::new(&alone, camera, time_seconds, image_size, display).over(camera, &target).among(scene, Some(index));
+            let view =
+                View::new(&alone, camera, time_seconds, image_size, display).over(camera, &target).among(scene, Some(index));
             draws.extend(self.carrier_draws(index, &Seen { scene: &alone, ..*seen }, choice, view));
         }
         if !scene.balls.is_empty() {
@@ -306,16 +307,14 @@ impl Stage {
     /// # Errors
     ///
     /// A shader does not compile.
-    pub fn request_channels(
-        &self,
-        gpu: &Gpu,
-        seen: &Seen<'_>,
-        size: [u32; 2],
-    ) -> Result<Vec<Readback>, ShaderError> {
+    pub fn request_channels(&self, gpu: &Gpu, seen: &Seen<'_>, size: [u32; 2]) -> Result<Vec<Readback>, ShaderError> {
         let draws: Vec<_> = self.draws(seen, size).into_iter().filter(|draw| draw.geometry != Geometry::Backdrop).collect();
         let addressing = |draw: &Draw| self.carriers[draw.carrier].addressing;
-        let views: Vec<_> =
-            draws.iter().map(addressing).map(|addressing| (addressing, ViewSet::new(gpu, &self.view_layout, addressing))).collect();
+        let views: Vec<_> = draws
+            .iter()
+            .map(addressing)
+            .map(|addressing| (addressing, ViewSet::new(gpu, &self.view_layout, addressing)))
+            .collect();
         for (draw, (_, set)) in draws.iter().zip(&views) {
             set.uniform.write(gpu, &draw.view);
         }

@@ -248,7 +248,10 @@ fn unfit_files_are_refused_with_their_line() {
         ("version = 1\n[[reliefs]]\npitch_degrees = inf\n", "`reliefs[0].pitch_degrees` is inf"),
         ("version = 1\n[[reliefs]]\n[[reliefs]]\n[reliefs.field]\nsize = [0, 4]\n", "`reliefs[1].field.size` is [0, 4]"),
         ("version = 1\n[[reliefs]]\n[reliefs.wave]\n", "unknown field `wave`"),
-        ("version = 1\n[[reliefs]]\n[reliefs.base]\nkind = \"image\"\npath = \"nowhere.png\"\n", "nowhere.png: there is no such file"),
+        (
+            "version = 1\n[[reliefs]]\n[reliefs.base]\nkind = \"image\"\npath = \"nowhere.png\"\n",
+            "nowhere.png: there is no such file",
+        ),
         ("version = 1\n[[reliefs]]\n[reliefs.mesh]\nsource = \"cubes\"\n", "unknown mesh"),
     ] {
         let path = write(directory.path(), "scene.toml", text);

@@ -11,7 +11,6 @@ use super::pick::Picker;
 use super::readings::Readings;
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
-use crate::field;
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
 use crate::io::{png_file, shader_folder};
@@ -213,7 +212,7 @@ impl Session {
 
     /// Back to the start of the scene, with what the panel changed.
     fn restart(&mut self) {
-        self.start.scene = self.panel.scene.clone();
+        self.start.take_scene(&self.panel.scene);
         self.frame.reset(&self.gpu, &self.start);
         self.clock = Clock::new(self.frame.step_seconds());
         self.picker.forget();
@@ -225,7 +224,6 @@ impl Session {
         self.panel.scene.seed = seed;
         self.panel.original.seed = seed;
         self.apply_scene();
-        self.start = self.start.clone().reseeded(&self.panel.scene);
         self.restart();
         self.panel.say(format!("Seed {seed}"));
     }
@@ -298,7 +296,7 @@ impl Session {
         let valid = self.panel.scene.validate().map_err(|error| error.to_string());
         match valid.and_then(|()| self.frame.set_scene(&self.gpu, &self.panel.scene).map_err(|error| error.to_string())) {
             Ok(()) => {
-                self.clock.set_step(self.frame.step_seconds());
+                self.clock.set_steps(self.frame.step_seconds());
                 self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
             }
             Err(error) => {
@@ -347,10 +345,10 @@ impl Session {
             self.readings.note_frame(seconds);
         }
         self.readings.time_seconds = self.tick.time_seconds;
-        self.readings.steps = self.tick.steps;
+        self.readings.steps = self.tick.owed.iter().map(|owed| owed.steps).sum();
         self.readings.image_size = self.frame.image_size();
         self.readings.field_size = self.frame.field.size;
-        self.readings.field_bytes_per_texel = field::bytes_per_texel();
+        self.readings.field_bytes_per_texel = self.frame.field_bytes_per_texel();
         self.readings.gpu_memory_bytes = self.frame.memory_bytes();
     }
 
