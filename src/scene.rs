@@ -9,6 +9,7 @@ mod layer;
 mod lights;
 mod lod;
 mod reliefs;
+mod swing;
 mod techniques;
 mod text;
 mod validate;
@@ -25,6 +26,7 @@ pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
 pub use reliefs::{RELIEFS_MAX, Relief};
+pub use swing::Swing;
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -366,6 +368,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// How it swings about that, if it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub swing: Option<Swing>,
     /// Metres a second that eye and target travel along x, y and z.
     #[serde(deserialize_with = "exactly")]
     pub fly_metres_per_second: [f64; 3],
@@ -528,6 +533,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            swing: None,
             fly_metres_per_second: [0.0; 3],
         }
     }

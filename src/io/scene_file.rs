@@ -456,7 +456,7 @@ impl SceneOverrides {
             scene.trace.pyramid_leaf = leaf;
         }
         if let Some(CameraPlacement { eye, target }) = self.camera {
-            let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+            let still = Camera { orbit_degrees_per_second: 0.0, swing: None, fly_metres_per_second: [0.0; 3], ..scene.camera };
             scene.camera = Camera { eye, target, ..still };
         }
         if let Some(fov) = self.vertical_fov_degrees {

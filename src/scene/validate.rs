@@ -376,12 +376,17 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
         camera.orbit_degrees_per_second,
         Range::from_to(-3600.0, 3600.0, "degrees per second"),
     )?;
+    if let Some(swing) = &camera.swing {
+        // Beyond a quarter turn it would look at the back of things after all.
+        number("camera.swing.degrees", swing.degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
+        number("camera.swing.period_seconds", swing.period_seconds, Range::from_to(0.1, 3600.0, "seconds"))?;
+    }
     numbers("camera.fly_metres_per_second", &camera.fly_metres_per_second, Range::from_to(-1e4, 1e4, "metres per second"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Lod, Rain};
+    use super::super::{Boundary, Lod, Rain, Swing};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -403,6 +408,7 @@ mod tests {
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             reliefs: vec![relief],
+            camera: Camera { swing: Some(Swing { degrees: 30.0, period_seconds: 8.0 }), ..Camera::default() },
             ..Scene::default()
         }
     }
