@@ -3,11 +3,14 @@
 //! Every random stroke has a number, and its own generator made from the seed and that number: what a stroke looks like depends
 //! neither on the strokes before it nor on how frames cut time into pieces. A warm-up of W frames and then N more are W + N.
 
+use std::sync::Arc;
+
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 use crate::clock::{Simulation, Tick};
+use crate::field::sequence::Images;
 use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Rain, Scene, Shots};
@@ -29,6 +32,8 @@ pub struct Strokes {
     pub presses: Vec<Stamp>,
     /// The impulses, each with the step of the frame before which it falls: 0 is the first.
     pub splashes: Vec<(u32, Impulse)>,
+    /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
+    pub images: Option<Arc<Images>>,
 }
 
 impl Strokes {

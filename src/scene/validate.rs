@@ -7,7 +7,7 @@ use crate::surface::view::BALLS_MAX;
 
 use super::{
     Ball, Base, Camera, DirectionalLight, FieldSettings, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Plane,
-    RELIEFS_MAX, Relief, Scene, Shots, Text, Trace, VERSION, Wave, check_text,
+    RELIEFS_MAX, Relief, Scene, Shots, Text, Trace, VERSION, Wave, check_text, noise, sequence,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -111,8 +111,11 @@ impl Scene {
         if self.version != VERSION {
             return Err(SceneError::Version { found: self.version });
         }
-        validate_relief(&self.field, &self.plane, &self.base, &self.material, self.mesh.as_ref())?;
+        let brings_colours = self.sequence.as_ref().is_some_and(|sequence| sequence.colours.is_some());
+        validate_relief(&self.field, &self.plane, &self.base, &self.material, self.mesh.as_ref(), brings_colours)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.noise.as_ref().map_or(Ok(()), noise::validate)?;
+        self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
         validate_trace(&self.trace)?;
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
@@ -138,15 +141,15 @@ pub fn check_camera(eye: [f64; 3], target: [f64; 3]) -> Result<(), String> {
     Ok(())
 }
 
-fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
+pub(super) fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
     Err(SceneError::Value { key: key.into(), value: value.to_string(), allowed: allowed.to_string() })
 }
 
-fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
+pub(super) fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
     if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
 }
 
-fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
+pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }
 
@@ -157,6 +160,7 @@ fn validate_relief(
     base: &Base,
     material: &Material,
     mesh: Option<&Mesh>,
+    brings_colours: bool,
 ) -> Result<(), SceneError> {
     if field.size.contains(&0) {
         let [width, height] = field.size;
@@ -168,7 +172,7 @@ fn validate_relief(
     let most = (1 << 24) / field.size[0].max(field.size[1]);
     numbers("plane.repeat", &plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
     validate_base(base)?;
-    validate_material(material, matches!(base, Base::StillLife {}))?;
+    validate_material(material, brings_colours || matches!(base, Base::StillLife {}))?;
     mesh.map_or(Ok(()), validate_mesh)
 }
 
@@ -185,7 +189,7 @@ fn validate_reliefs(reliefs: &[Relief]) -> Result<(), SceneError> {
         number(format!("{own}.pitch_degrees"), relief.pitch_degrees, turn)?;
         number(format!("{own}.roll_degrees"), relief.roll_degrees, turn)?;
         let Relief { field, plane, base, material, mesh, .. } = relief;
-        validate_relief(field, plane, base, material, mesh.as_ref()).map_err(|error| error.within(&own))
+        validate_relief(field, plane, base, material, mesh.as_ref(), false).map_err(|error| error.within(&own))
     })
 }
 
@@ -337,12 +341,12 @@ fn validate_directional(key: &str, light: &DirectionalLight) -> Result<(), Scene
     number(key("turn_degrees_per_second"), light.turn_degrees_per_second, turn)
 }
 
-fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), SceneError> {
+fn validate_material(material: &Material, scene_has_colours: bool) -> Result<(), SceneError> {
     match &material.image {
         Some(path) if path.as_os_str().is_empty() => {
             return refuse("material.image", "empty", "the path of a PNG file, or left out");
         }
-        None if material.albedo == Albedo::Image && !base_has_colours => {
+        None if material.albedo == Albedo::Image && !scene_has_colours => {
             return refuse(
                 "material.albedo",
                 "image",
@@ -386,7 +390,7 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Lod, Rain, Swing};
+    use super::super::{Boundary, Columns, Dunes, FractalNoise, Gears, Lod, Noise, NoisePattern, Rain, Scales, Sequence, Swing};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -404,6 +408,7 @@ mod tests {
                 obstacles: vec![obstacle],
                 ..Wave::default()
             }),
+            sequence: Some(Sequence { heights: "series".into(), ..Sequence::default() }),
             shots: Some(Shots::default()),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
@@ -456,14 +461,28 @@ mod tests {
                 _ => {}
             }
         }
-        let whole = serde_json::to_value(full()).unwrap();
-        let mut found = Vec::new();
-        leaves(&whole, "", &mut found);
-        assert!(found.len() > 50, "{found:?}");
-        for path in found.iter().filter(|path| *path != "/seed") {
+        let patterns = [
+            NoisePattern::Fractal(FractalNoise::default()),
+            NoisePattern::Columns(Columns::default()),
+            NoisePattern::Scales(Scales::default()),
+            NoisePattern::Gears(Gears::default()),
+            NoisePattern::Dunes(Dunes::default()),
+        ];
+        let scenes = patterns.map(|pattern| Scene { noise: Some(Noise { pattern, ..Noise::default() }), ..full() });
+        let wholes = scenes.map(|scene| serde_json::to_value(scene).unwrap());
+        let paths = wholes.iter().flat_map(|whole| {
+            let mut found = Vec::new();
+            leaves(whole, "", &mut found);
+            assert!(found.len() > 50, "{found:?}");
+            found.into_iter().map(move |path| (whole, path))
+        });
+        for (whole, path) in paths.filter(|(_, path)| path != "/seed") {
+            let path = path.as_str();
             let mut poisoned = whole.clone();
             let slot = poisoned.pointer_mut(path).unwrap();
-            *slot = if slot.is_u64() { 0.into() } else { serde_json::json!(-1e30) };
+            // There may be no waves, but not a thousand.
+            let none = if path.contains("/waves/") { 1000 } else { 0 };
+            *slot = if slot.is_u64() { none.into() } else { serde_json::json!(-1e30) };
             let scene: Scene = serde_json::from_value(poisoned).unwrap();
             let error = scene.validate().expect_err(path).to_string();
             let key = path.split('/').rfind(|part| part.parse::<usize>().is_err()).unwrap();

@@ -113,6 +113,8 @@ choices! {
         Image = "image", "albedo_image", "Image";
         /// Rock, dust and ice of a planet without air.
         Planet = "planet", "albedo_planet", "Planet";
+        /// Sand, winnowed pale on the crests.
+        Sand = "sand", "albedo_sand", "Sand";
         /// Grass, forest, rock and snow, by height and slope.
         Terrain = "terrain", "albedo_terrain", "Terrain";
         /// Clear water over a floor.

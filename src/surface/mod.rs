@@ -159,6 +159,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         | Albedo::Glass
         | Albedo::Image
         | Albedo::Planet
+        | Albedo::Sand
         | Albedo::Terrain
         | Albedo::Water => Vec::new(),
     });

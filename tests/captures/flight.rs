@@ -52,7 +52,9 @@ fn differences(a: &[Vec<u8>], b: &[Vec<u8>]) -> (f64, u8) {
 
 /// Flies both ways with a technique, prints the figures and holds them to the bars.
 fn compare(gpu: &Gpu, technique: Technique, shadow: Shadow, image_size: [u32; 2], frames: u32) {
-    let start = modes::start(&load("sidewalk", &SceneOverrides::default(), image_size).expect("it is listed"));
+    let start = modes::start(&load("sidewalk", &SceneOverrides::default(), image_size).expect("it is listed"))
+        .expect("it plays nothing")
+        .0;
     let mut on = start.scene.clone();
     on.trace.technique = technique;
     on.trace.shadow = shadow;

@@ -8,6 +8,7 @@ mod detail;
 mod keys;
 mod light;
 mod material;
+mod noise;
 mod reliefs;
 mod scene;
 mod simulation;
@@ -200,6 +201,8 @@ impl Panel {
         self.light_group(ui);
         self.material_group(ui);
         self.reliefs_group(ui);
+        self.noise_group(ui);
+        self.sequence_group(ui);
         self.simulation_group(ui);
         self.brush_group(ui);
         self.camera_group(ui, actions);
