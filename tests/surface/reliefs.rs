@@ -272,7 +272,7 @@ fn a_further_relief_looks_as_the_scenes_own() {
         // A speck, where nobody looks.
         further.plane = Plane { width_metres: 1e-3, ..own.plane.clone() };
         let (one, _) = seen_from_start(gpu, &start_of(&own, &field, &[]), &here, SIZE);
-        let (other, _) = seen_from_start(gpu, &start_of(&further, &nothing, &[field.clone()]), &there, SIZE);
+        let (other, _) = seen_from_start(gpu, &start_of(&further, &nothing, std::slice::from_ref(&field)), &there, SIZE);
         let (mut shown, mut off) = (0, 0);
         for (one, other) in one.iter().zip(&other) {
             if one.steps < 0.0 && other.steps < 0.0 {
