@@ -113,7 +113,7 @@ mod tests {
             let [yaw_degrees, pitch_degrees, roll_degrees] = angles;
             let relief = Relief { yaw_degrees, pitch_degrees, roll_degrees, ..Relief::default() };
             let Placement { u, v, up, .. } = relief.placement();
-            assert!((v.cross(u) - up).length() < 1e-15 && (u.length() - 1.0).abs() < 1e-15, "{angles:?}: {u} {v} {up}");
+            assert!((v.cross(u) - up).length() < 1e-14 && (u.length() - 1.0).abs() < 1e-14, "{angles:?}: {u} {v} {up}");
         }
         assert_eq!(Relief::default().placement(), Placement::default());
     }

@@ -184,9 +184,9 @@ impl Stage {
     fn draws(&self, seen: &Seen<'_>, image_size: [u32; 2]) -> Vec<Draw> {
         let Seen { scene, camera, time_seconds, display } = *seen;
         let view = View::new(scene, camera, time_seconds, image_size, display).among(scene, None);
+        let plain = |geometry| Draw { carrier: 0, geometry, choice: Choice::beside(scene), triangles: 0..1, view };
+        let mut draws = vec![plain(Geometry::Backdrop)];
         let reliefs = Choice::of(scene).reliefs;
-        let plain = |geometry| Draw { carrier: 0, geometry, choice: Choice { reliefs, ..Choice::PLAIN }, triangles: 0..1, view };
-        let mut draws = vec![Draw { choice: Choice::PLAIN, ..plain(Geometry::Backdrop) }];
         for (index, (alone, placement)) in reliefs_of(scene).into_iter().enumerate().take(self.carriers.len()) {
             let choice = Choice { reliefs, ..Choice::of(&alone) }.showing(display.shows);
             let target = target(&alone, placement);
