@@ -7,12 +7,13 @@ use crate::camera::Camera;
 use crate::clock::Tick;
 use crate::field::bins::BinError;
 use crate::field::compose::{Compose, ComposeSet};
+use crate::field::groundwork::Groundwork;
 use crate::field::normal_mips::{NormalMips, NormalMipsSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
-use crate::field::stamp::{StampSet, Stamps};
+use crate::field::stamp::StampImage;
 use crate::field::wave::{self, WaveSet, Waves};
-use crate::field::{Dirty, Field, Region, base, compose, normal_mips, normals, pyramid, stamp};
+use crate::field::{Dirty, Field, Region, base, compose, material, normal_mips, normals, pyramid};
 use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
 use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
@@ -35,15 +36,18 @@ pub struct Start {
     pub mesh: Option<Mesh>,
     /// The picture over it, if any.
     pub colours: Option<ColourImage>,
+    /// The images that its stamps may have for their form.
+    pub images: Vec<StampImage>,
 }
 
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None };
+        let mut start =
+            Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, images: Vec::new() };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
-            start.material[texel] = base::POST_MATERIAL;
+            start.material[texel] = material::POST;
         }
         start
     }
@@ -51,6 +55,11 @@ impl Start {
     /// The same under a picture, if there is one.
     pub fn with_colours(self, colours: Option<ColourImage>) -> Self {
         Self { colours, ..self }
+    }
+
+    /// The same with images for its stamps.
+    pub fn with_images(self, images: Vec<StampImage>) -> Self {
+        Self { images, ..self }
     }
 }
 
@@ -122,8 +131,7 @@ pub struct Frame {
     /// The view of the right side, where the picture is split.
     right_view_set: ViewSet,
     waves: Option<(Waves, WaveSet)>,
-    stamps: Stamps,
-    stamp_set: StampSet,
+    groundwork: Groundwork,
     compose: Compose,
     compose_set: ComposeSet,
     normals: Normals,
@@ -152,7 +160,6 @@ pub struct Frame {
 #[derive(Clone, Copy, Debug, Default)]
 struct Traffic {
     wave_steps: u32,
-    stamped_texels: u64,
     derived_texels: u64,
 }
 
@@ -181,9 +188,10 @@ impl Frame {
             }
             None => None,
         };
-        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let (stamp_set, compose_set, normals_set, pyramid_set) =
-            (stamps.bind(gpu, &field), compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
+        let groundwork = Groundwork::new(gpu, &field, &scene, &start.images)?;
+        let (compose, normals, pyramid) = (Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (compose_set, normals_set, pyramid_set) =
+            (compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
         let normal_mips = NormalMips::new(gpu)?;
         let normal_mips_set = normal_mips.bind(gpu, &field);
         let present = Present::new(gpu, target)?;
@@ -197,8 +205,7 @@ impl Frame {
             view_set,
             right_view_set,
             waves,
-            stamps,
-            stamp_set,
+            groundwork,
             compose,
             compose_set,
             normals,
@@ -227,6 +234,7 @@ impl Frame {
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
         self.field.material.write(gpu, &start.material);
+        self.groundwork.reset(gpu, &start.heights);
         if let Some((_, set)) = &mut self.waves {
             set.reset(gpu, &self.field);
         }
@@ -247,7 +255,7 @@ impl Frame {
             let set = surface.bind(gpu, &self.field);
             surfaces.insert(choice, (surface, set));
         }
-        let (stamps, compose, normals, pyramid) = (Stamps::new(gpu)?, Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (compose, normals, pyramid) = (Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
         let normal_mips = NormalMips::new(gpu)?;
         let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
@@ -259,10 +267,11 @@ impl Frame {
             stage.forget_pipelines();
             stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
         }
+        self.groundwork.reload(gpu)?;
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
         self.surfaces = surfaces;
-        (self.stamps, self.compose, self.normals, self.pyramid, self.present) = (stamps, compose, normals, pyramid, present);
+        (self.compose, self.normals, self.pyramid, self.present) = (compose, normals, pyramid, present);
         self.normal_mips = normal_mips;
         if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
             *waves = new;
@@ -398,6 +407,11 @@ impl Frame {
         self.stage.as_ref()
     }
 
+    /// What is done to the relief and its material.
+    pub fn groundwork(&self) -> &Groundwork {
+        &self.groundwork
+    }
+
     /// The scene that it shows.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -435,20 +449,16 @@ impl Frame {
             }
             self.traffic.wave_steps = input.tick.steps;
         }
-        // Press this frame's stamps into the relief.
-        let pressed = self.stamps.record(recorder, &mut self.stamp_set, &input.strokes.presses)?;
-        self.traffic.stamped_texels = self.stamp_set.touched_texels();
-        for region in pressed.regions(self.field.size) {
-            self.dirty.add(region, self.field.size);
-        }
+        // Press this frame's stamps into the relief, and let it heal and cool in between.
+        let pressed = self.groundwork.record(recorder, &self.field, input.tick, input.strokes)?;
+        self.dirty.merge(&pressed, self.field.size);
         let Some(target) = target else { return Ok(()) };
         self.build_for(gpu, &input.display)?;
         // Derive what depends on the layers, where they changed.
         let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
-        self.traffic.derived_texels = changed.iter().map(Region::area).sum();
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         if !changed.is_empty() {
-            self.derive(recorder, &changed);
+            self.traffic.derived_texels = self.derive(recorder, &changed);
         }
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
@@ -481,8 +491,8 @@ impl Frame {
         Ok(())
     }
 
-    /// Derives everything that depends on the layers alone, over the texels that changed.
-    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
+    /// Derives everything that depends on the layers alone, over the texels that changed; says over how many it came to.
+    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) -> u64 {
         let grown = |low, high| -> Vec<Region> {
             changed.iter().flat_map(|region| region.grown(low, high, self.field.size, self.field.addressing)).collect()
         };
@@ -491,7 +501,7 @@ impl Frame {
             (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
             _ => (0.0, 0),
         };
-        self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
+        let texels = self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
         let leaning = grown(1, 1);
         self.normals.record(recorder, &self.normals_set, &leaning, slope_per_height(&self.scene));
@@ -501,6 +511,7 @@ impl Frame {
         }
         // … and its bounds, which the cells before a texel see.
         self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
+        texels
     }
 
     /// Shows the field as it stands.
@@ -534,7 +545,7 @@ impl Frame {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
-        self.field.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
+        self.field.memory_bytes() + self.groundwork.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
@@ -545,7 +556,7 @@ impl Frame {
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
         let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
         u64::from(self.traffic.wave_steps) * texels * wave::TEXEL_BYTES
-            + self.traffic.stamped_texels * stamp::TEXEL_BYTES
+            + self.groundwork.traffic_bytes()
             + self.traffic.derived_texels * derived
     }
 

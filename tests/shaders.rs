@@ -2,13 +2,15 @@
 
 use std::mem::{offset_of, size_of};
 
-use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
+use rilievo::field::blocks::Blocks;
 use rilievo::field::compose::ComposeParams;
+use rilievo::field::cool::CoolParams;
+use rilievo::field::heal::HealParams;
 use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
-use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
+use rilievo::field::stamp::{Blend, Profile, StampExtra, StampParams, StampRecord, Stamps};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
@@ -26,12 +28,14 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 7] = [
+    let fixed: [&[&str]; 9] = [
         &["common/region", "field/compose"],
         &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
-        &["common/noise", "field/stamp"],
+        &["common/noise", "common/material", "common/profile", "common/marks", "field/stamp"],
+        &["common/material", "field/cool"],
+        &["common/material", "field/heal"],
         &["field/wave"],
         &["common/heat", "common/legend", "present"],
     ];
@@ -185,6 +189,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 forward_world,
                 balls,
                 repeat,
+                moment,
+                glow,
                 detail,
             }),
         ),
@@ -195,20 +201,43 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("ViewLight", layout!(ViewLight { toward, casts_shadow, radiance })),
         ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
         ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
-        ("Region", layout!(Region { origin, extent })),
-        ("ComposeParams", layout!(ComposeParams { region, amplitude, tiles_per_row, size })),
-        ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
-        ("NormalMipsParams", layout!(NormalMipsParams { region, source_size, size, last_weight })),
-        ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
+        ("Blocks", layout!(Blocks { first, count })),
+        ("ComposeParams", layout!(ComposeParams { blocks, amplitude, tiles_per_row, size })),
+        ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size, wrap })),
+        ("NormalMipsParams", layout!(NormalMipsParams { blocks, source_size, size, last_weight })),
+        ("PyramidParams", layout!(PyramidParams { blocks, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
         ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
-        ("StampParams", layout!(StampParams { size, tile_count })),
-        ("StampRecord", layout!(StampRecord { height, level, alpha, irregularity, phase, soot, bare, profile, blend })),
+        ("StampParams", layout!(StampParams { size, tile_count, first_tile })),
+        ("StampRecord", layout!(StampRecord { height, level, alpha, profile, blend })),
+        (
+            "StampExtra",
+            layout!(StampExtra {
+                phase,
+                span,
+                joins,
+                axis,
+                half_extent,
+                image_origin,
+                image_size,
+                irregularity,
+                soot,
+                bare,
+                gloss,
+                heat,
+                moment,
+                along,
+                tread,
+                lugs_per_texel,
+            }),
+        ),
         ("StampTile", layout!(Tile { tile, first, count })),
         ("StampMember", layout!(Member { centre, radius, disc })),
+        ("HealParams", layout!(HealParams { size, first_tile, tile_count, kept, closes, soot, gloss })),
+        ("CoolParams", layout!(CoolParams { size, moment })),
         ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
         ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
         ("WaveTile", layout!(Tile { tile, first, count })),
@@ -265,7 +294,7 @@ fn no_shader_has_a_uniform_buffer() {
 /// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
 #[test]
 fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
-    let module = module(&["common/noise".to_owned(), "field/stamp".to_owned()]);
+    let module = module(&Stamps::PARTS.map(str::to_owned));
     let profiles = Profile::ALL.map(|profile| (format!("STAMP_{profile:?}").to_uppercase(), profile as u32));
     let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
     for (name, number) in profiles.into_iter().chain(blends) {

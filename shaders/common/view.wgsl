@@ -105,7 +105,8 @@ struct View {
     forward_world: vec3f,        // unit, along the view axis
     balls: array<Ball, 4>,
     repeat: vec2f,               // how often the plane shows the field along u and v
-    pad_repeat: vec2f,
+    moment: f32,                 // of the clock of heat: see common/material.wgsl
+    glow: f32,                   // radiance of what glows fully
     detail: ViewDetail,
 }
 

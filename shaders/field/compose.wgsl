@@ -8,7 +8,7 @@
 // 4 or 8 bytes in, 4 out a texel. Specification: src/reference/compose.rs. Composed after common/region.wgsl.
 
 struct ComposeParams {
-    region: Region,     // whole tiles, cut at the field's border
+    blocks: Blocks,     // its tiles
     amplitude: f32,     // height that a wave of displacement 1 adds
     tiles_per_row: u32,
     size: vec2u,        // of the field, texels
@@ -21,6 +21,11 @@ override TILE: u32;
 @group(1) @binding(2) var wave: texture_2d<f32>;
 @group(1) @binding(3) var height: texture_storage_2d<r32float, write>;
 @group(1) @binding(4) var<storage, read_write> clipped: array<u32>;
+@group(1) @binding(5) var<storage, read> block_list: array<u32>;
+
+fn listed_block(index: u32) -> u32 {
+    return block_list[index];
+}
 
 var<workgroup> clipped_here: atomic<u32>;
 
@@ -46,12 +51,14 @@ fn out_of_range(value: f32) -> bool {
 
 @compute @workgroup_size(TILE, TILE)
 fn compose(
-    @builtin(workgroup_id) tile: vec3u,
-    @builtin(global_invocation_id) id: vec3u,
-    @builtin(local_invocation_index) local: u32,
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) local_index: u32,
 ) {
-    let texel = params.region.origin + id.xy;
-    if all(id.xy < params.region.extent) {
+    let tile = block_of(params.blocks, workgroup, workgroups);
+    let texel = tile * TILE + local.xy;
+    if all(texel < params.size) {
         var value = textureLoad(relief, texel, 0).r;
         if params.amplitude != 0.0 {
             value += params.amplitude * textureLoad(wave, texel, 0).r;
@@ -62,8 +69,7 @@ fn compose(
         }
     }
     workgroupBarrier();
-    if local == 0u {
-        let first = params.region.origin / TILE + tile.xy;
-        clipped[first.y * params.tiles_per_row + first.x] = atomicLoad(&clipped_here);
+    if local_index == 0u && all(tile * TILE < params.size) {
+        clipped[tile.y * params.tiles_per_row + tile.x] = atomicLoad(&clipped_here);
     }
 }

@@ -6,25 +6,32 @@
 //!
 //! | name | format | bytes a texel | holds | writer | readers |
 //! |---|---|---|---|---|---|
-//! | relief | r32float | 4 | base height with every stamp pressed into it, unclamped | stamp | compose |
-//! | material | r32uint | 4 | four unorm8: soot, bare (freshly broken), post, 0 | stamp | surface |
+//! | relief | r32float | 4 | base height with every stamp pressed into it, unclamped | stamp, heal | compose |
+//! | material | r32uint | 4 | soot, bare (freshly broken), post, gloss, heat: bits of `material::Marks` | stamp, heal, cool | surface |
 //! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | height | r32float | 4 | the height field, 0 to 1 | compose | normals, pyramid, surface |
 //! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
 //!
-//! Together 37 bytes a texel. A scene without waves has the wave's rows at 1×1. The bound on the sum is 40.
+//! Together 37 bytes a texel. A scene without waves has the wave's rows at 1×1. The bound on the sum is 40. A scene that heals has
+//! [`heal::CONTRACT`] besides.
 
 pub mod base;
 pub mod bins;
+pub mod blocks;
 pub mod compose;
+pub mod cool;
 pub mod dirty;
+pub mod groundwork;
+pub mod heal;
+pub mod material;
 pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
 pub mod stamp;
+pub mod undo;
 pub mod wave;
 
 use wgpu::{TextureFormat, TextureUsages};
@@ -59,9 +66,9 @@ macro_rules! roles {
 
 roles! {
     /// The base with every stamp pressed into it.
-    Relief = "relief", R32Float, mips false, LAYER, "height, unclamped", from "stamp", to "compose";
+    Relief = "relief", R32Float, mips false, LAYER, "height, unclamped", from "stamp, heal", to "compose";
     /// What stamps leave on the material.
-    Material = "material", R32Uint, mips false, LAYER, "unorm8 ×4: soot, bare, post, 0", from "stamp", to "surface";
+    Material = "material", R32Uint, mips false, LAYER, "bits of material::Marks", from "stamp, heal, cool", to "surface";
     /// What a texel of the waves is free to do.
     WaveMask = "wave mask", R8Uint, mips false, TextureUsages::TEXTURE_BINDING.union(TextureUsages::COPY_DST), "bits of wave::Mask", from "upload", to "wave";
     /// The state of the waves at one step.

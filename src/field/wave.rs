@@ -216,7 +216,7 @@ impl Mask {
 ///
 /// With s the squared distance in radii it is strength·(1 − s)²·(1 − ring·s), smooth, and 0 from the radius on. On an infinitely
 /// fine lattice, ring = 4 makes its net zero; on a real one, cut by obstacles, [`Impulse::ring`] says what does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Impulse {
     centre: [f32; 2],
     radius: f32,

@@ -5,6 +5,7 @@ pub mod colour_image;
 pub mod exr_file;
 pub mod font;
 pub mod height_image;
+pub mod imprint_image;
 pub mod manifest;
 pub mod mesh_file;
 pub mod output_dir;

@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use super::colour_image;
 use super::font::{self, FontError};
 use super::height_image::{self, HeightImage, ImageError};
+use super::imprint_image;
 use super::mesh_file::{self, MeshError};
 use crate::field::base::{self, Lettering};
+use crate::field::stamp::StampImage;
 use crate::mesh::{Mesh, MeshSource};
 use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, Text, VERSION};
 use crate::suggest;
@@ -110,6 +112,8 @@ pub struct LoadedScene {
     pub mesh: Option<Mesh>,
     image: Option<HeightImage>,
     lettering: Option<Lettering>,
+    /// The images that stamps may have for their form.
+    pub images: Vec<StampImage>,
     colours: Option<ColourImage>,
 }
 
@@ -241,7 +245,8 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
         Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
         None => None,
     };
-    Ok(LoadedScene { scene, mesh, image, lettering, colours })
+    let images = imprint_image::load(&scene.imprints)?;
+    Ok(LoadedScene { scene, mesh, image, lettering, images, colours })
 }
 
 fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
@@ -305,6 +310,9 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
         _ => {}
     }
     scene.material.image.iter_mut().for_each(beside_scene);
+    for imprint in &mut scene.imprints {
+        imprint.font.iter_mut().chain(&mut imprint.image).for_each(beside_scene);
+    }
     if let Some(mesh) = &mut scene.mesh {
         mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
     }

@@ -72,7 +72,7 @@ pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError>
 /// What a frame starts from. Makes as many heights as the field has texels: check the size against the adapter first.
 pub fn start(loaded: &LoadedScene) -> Start {
     let (heights, colours) = loaded.layers();
-    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours)
+    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_images(loaded.images.clone())
 }
 
 /// Waits for bytes on their way from the GPU.

@@ -5,6 +5,8 @@
 
 pub mod balls;
 pub mod compose;
+pub mod cool;
+pub mod heal;
 pub mod level_of_detail;
 pub mod light_disc;
 pub mod light_ggx;

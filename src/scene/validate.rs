@@ -5,9 +5,10 @@ use std::fmt;
 use crate::surface::Albedo;
 use crate::surface::view::BALLS_MAX;
 
+use super::stamping::{validate_imprints, validate_tracks};
 use super::{
-    Ball, Base, Camera, DirectionalLight, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene, Shots, Text, Trace,
-    VERSION, Wave, check_text,
+    Ball, Base, Camera, DirectionalLight, Explosions, Healing, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene,
+    Shots, Text, Trace, VERSION, Wave, check_text,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -112,7 +113,11 @@ impl Scene {
         numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
-        self.shots.as_ref().map_or(Ok(()), validate_shots)?;
+        self.shots.as_ref().map_or(Ok(()), Shots::validate)?;
+        self.explosions.as_ref().map_or(Ok(()), Explosions::validate)?;
+        self.healing.as_ref().map_or(Ok(()), Healing::validate)?;
+        validate_tracks(&self.tracks)?;
+        validate_imprints(&self.imprints)?;
         validate_trace(&self.trace)?;
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
@@ -138,22 +143,28 @@ pub fn check_camera(eye: [f64; 3], target: [f64; 3]) -> Result<(), String> {
     Ok(())
 }
 
-fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
+pub(super) fn refuse<T>(key: impl Into<String>, value: impl ToString, allowed: impl ToString) -> Result<T, SceneError> {
     Err(SceneError::Value { key: key.into(), value: value.to_string(), allowed: allowed.to_string() })
 }
 
-fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
+pub(super) fn number(key: impl Into<String>, value: impl Into<f64> + ToString + Copy, range: Range) -> Result<(), SceneError> {
     if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
 }
 
-fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
+pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }
 
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
+        Base::Bricks {}
+        | Base::Cobbles {}
+        | Base::Facade {}
+        | Base::Snow {}
+        | Base::Terrain {}
+        | Base::Fur {}
+        | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
@@ -239,17 +250,6 @@ fn validate_obstacle(i: usize, obstacle: &Obstacle) -> Result<(), SceneError> {
     numbers(&key("half_extent_metres"), &obstacle.half_extent_metres, Range::above(0.0, 1e6, "metres"))?;
     number(key("corner_metres"), obstacle.corner_metres, Range::from_to(0.0, 1e6, "metres"))?;
     number(key("top"), obstacle.top, Range::from_to(0.0, 1.0, ""))
-}
-
-fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
-    number("shots.per_second", shots.per_second, Range::from_to(0.0, 1e5, "per second"))?;
-    numbers("shots.radius_metres", &shots.radius_metres, Range::above(0.0, 1e6, "metres"))?;
-    let [smallest, largest] = shots.radius_metres;
-    if smallest > largest {
-        return refuse("shots.radius_metres", format!("[{smallest}, {largest}]"), "the smallest radius, then the largest");
-    }
-    number("shots.depth_metres", shots.depth_metres, Range::from_to(0.0, 1e6, "metres"))?;
-    number("shots.scorch", shots.scorch, Range::from_to(0.0, 1.0, ""))
 }
 
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
@@ -342,7 +342,7 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Lod, Rain};
+    use super::super::{Boundary, Imprint, Lod, Rain, Track};
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -356,6 +356,10 @@ mod tests {
                 ..Wave::default()
             }),
             shots: Some(Shots::default()),
+            explosions: Some(Explosions::default()),
+            tracks: vec![Track::default()],
+            imprints: vec![Imprint { text: Some("R".to_owned()), ..Imprint::default() }],
+            healing: Some(Healing::default()),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()

@@ -52,6 +52,8 @@ pub struct Choice {
     pub balls: bool,
     /// Whether the material mirrors its surroundings.
     pub reflects: bool,
+    /// Whether stamps may leave gloss and heat.
+    pub marks: bool,
 }
 
 impl Choice {
@@ -70,6 +72,7 @@ impl Choice {
             detail: false,
             balls: false,
             reflects: false,
+            marks: false,
         }
     }
 
@@ -78,12 +81,14 @@ impl Choice {
         let (trace, material) = (&scene.trace, &scene.material);
         let (detail, balls) = (scene.lod.filters(), !scene.balls.is_empty());
         let reflects = material.reflection > 0.0;
+        let marks = scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty();
         Self {
             albedo: material.albedo,
             shading: material.model,
             detail,
             balls,
             reflects,
+            marks,
             ..Self::tracing(trace.technique, trace.shadow)
         }
     }
@@ -117,6 +122,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
     let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
+        "common/material",
         "common/heat",
         "surface/ray",
         "common/field",
@@ -136,7 +142,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
 
 /// The `override`s that Rust owns in a composition of [`parts`], besides those of its entry points.
 pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
-    let switches = [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects)];
+    let switches = [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects), ("MARKS", choice.marks)];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![
@@ -144,6 +150,25 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
             ("BRICK_HEIGHT", f64::from(field::base::BRICK_METRES[1])),
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
+        Albedo::Facade => {
+            let [plate, door] = [field::base::facade::PLATE_METRES, field::base::facade::DOOR_METRES];
+            vec![
+                ("FACADE_WIDTH", f64::from(field::base::facade::FACADE_METRES[0])),
+                ("FACADE_HEIGHT", f64::from(field::base::facade::FACADE_METRES[1])),
+                ("FACADE_PLATE_LEFT", f64::from(plate[0])),
+                ("FACADE_PLATE_UPPER", f64::from(plate[1])),
+                ("FACADE_PLATE_RIGHT", f64::from(plate[2])),
+                ("FACADE_PLATE_LOWER", f64::from(plate[3])),
+                ("FACADE_DOOR_LEFT", f64::from(door[0])),
+                ("FACADE_DOOR_UPPER", f64::from(door[1])),
+                ("FACADE_DOOR_RIGHT", f64::from(door[2])),
+                ("FACADE_DOOR_LOWER", f64::from(door[3])),
+                ("FACADE_PLANK", f64::from(field::base::facade::PLANK_METRES)),
+                ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
+                ("BRICK_HEIGHT", f64::from(field::base::BRICK_METRES[1])),
+                ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
+            ]
+        }
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
         Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
         Albedo::Plain
@@ -152,6 +177,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         | Albedo::Glass
         | Albedo::Image
         | Albedo::Planet
+        | Albedo::Snow
         | Albedo::Terrain
         | Albedo::Water => Vec::new(),
     });

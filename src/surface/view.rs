@@ -3,7 +3,7 @@
 use glam::{DMat3, DMat4, DVec4};
 
 use crate::camera::Camera;
-use crate::field::base;
+use crate::field::{base, material};
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
@@ -108,7 +108,8 @@ pub struct View {
     pub pad_forward: u32,
     pub balls: [Ball; BALLS_MAX],
     pub repeat: [f32; 2],
-    pub pad_repeat: [f32; 2],
+    pub moment: f32,
+    pub glow: f32,
     pub detail: ViewDetail,
 }
 
@@ -189,6 +190,8 @@ impl View {
             forward_world: camera.forward().as_vec3().to_array(),
             balls,
             repeat: scene.plane.repeat.map(|times| times as f32),
+            moment: scene.cooling_seconds().map_or(0.0, |cooling_seconds| material::moment(time_seconds, cooling_seconds)),
+            glow: scene.explosions.as_ref().map_or(0.0, |explosions| explosions.glow),
             detail: ViewDetail::new(scene),
             ..Self::default()
         };

@@ -106,7 +106,8 @@ impl Bench {
         let row = |y: u32| nearest(y, 1) * from[0] as usize;
         let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let material = texels.map(|(x, y)| material[row(y) + nearest(x, 0)]).collect();
-        let start = Start { scene, heights, material, mesh: self.mesh.clone(), colours: self.colours.clone() };
+        let start =
+            Start { scene, heights, material, mesh: self.mesh.clone(), colours: self.colours.clone(), images: Vec::new() };
         let image_size = self.frame.image_size();
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT)?;
         frame.timer = trusted_timer(gpu);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::hand;
+use super::hand::Hand;
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
@@ -17,7 +17,7 @@ use crate::gpu::{Gpu, Readback};
 use crate::io::{png_file, shader_folder};
 use crate::modes::ModeError;
 use crate::modes::capture::Picture;
-use crate::stroke::{Stroke, Strokes};
+use crate::stroke::Strokes;
 use crate::surface::Technique;
 
 /// Time from frame to frame where it is fixed, and of a single step, seconds.
@@ -64,8 +64,9 @@ pub struct Session {
     clipped: Option<Readback>,
     /// Where the brush was pressed since the last frame.
     taps: Vec<DVec2>,
-    /// How many random strokes the hand has made.
-    hand_strokes: u64,
+    hand: Hand,
+    /// How many of its strokes are to be taken back.
+    undo: u32,
     single_step: bool,
     /// Where the last frame was seen from: what a click upon it means.
     shown: Camera,
@@ -110,7 +111,8 @@ impl Session {
             picker: Picker::default(),
             clipped: None,
             taps: Vec::new(),
-            hand_strokes: 0,
+            hand: Hand::default(),
+            undo: 0,
             single_step: false,
             shown,
             tick: Tick::default(),
@@ -182,6 +184,11 @@ impl Session {
             }
             Action::Reset => self.restart(),
             Action::NewSeed => self.reseed(),
+            Action::Undo if self.undo < self.frame.groundwork().undoable() as u32 => {
+                self.hand.stop();
+                self.undo += 1;
+            }
+            Action::Undo => self.panel.say("Nothing to take back"),
             Action::Scene(index) => self.choose(index),
             Action::NextView => {
                 let shows = next(crate::surface::Shows::ALL, self.panel.display.shows);
@@ -217,7 +224,8 @@ impl Session {
         self.frame.reset(&self.gpu, &self.start);
         self.clock = Clock::new(self.frame.step_seconds());
         self.picker.forget();
-        self.hand_strokes = 0;
+        self.hand = Hand::default();
+        self.undo = 0;
     }
 
     fn reseed(&mut self) {
@@ -227,7 +235,9 @@ impl Session {
         self.apply_scene();
         // An image has no seed, nor has a text.
         if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone()).with_colours(self.start.colours.take());
+            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone())
+                .with_colours(self.start.colours.take())
+                .with_images(std::mem::take(&mut self.start.images));
         }
         self.restart();
         self.panel.say(format!("Seed {seed}"));
@@ -249,7 +259,8 @@ impl Session {
                 self.picker.forget();
                 self.readings.forget_passes();
                 self.clipped = None;
-                self.hand_strokes = 0;
+                self.hand = Hand::default();
+                self.undo = 0;
                 let description = self.panel.scene.description.clone();
                 self.panel.say(description);
             }
@@ -269,6 +280,7 @@ impl Session {
 
     /// A press of the brush at a pixel.
     pub fn tap(&mut self, pixel: DVec2) {
+        self.hand.begin();
         self.taps.push(pixel);
     }
 
@@ -287,9 +299,18 @@ impl Session {
         let scene = &self.panel.scene;
         let turns = scene.light.turn_degrees_per_second != 0.0
             || (self.rig.follows_scene() && scene.camera.orbit_degrees_per_second != 0.0);
-        let lives = !self.panel.paused && (scene.wave.is_some() || scene.shots.is_some() || turns);
+        let presses =
+            scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty() || !scene.imprints.is_empty();
+        let heals = self.frame.groundwork().heals() || self.hand.waits();
+        let lives = !self.panel.paused && (scene.wave.is_some() || presses || heals || turns);
         let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
-        lives || hand || self.picker.waits() || self.single_step || !self.taps.is_empty() || self.pacing == Pacing::Fixed
+        lives
+            || hand
+            || self.picker.waits()
+            || self.single_step
+            || !self.taps.is_empty()
+            || self.undo > 0
+            || self.pacing == Pacing::Fixed
     }
 
     /// Takes over what the panel changed in the scene.
@@ -328,10 +349,17 @@ impl Session {
         let elapsed_seconds = elapsed_seconds.min(LONGEST_FRAME_SECONDS);
         let hand_seconds = if self.pacing == Pacing::Fixed { DT_SECONDS } else { elapsed_seconds };
         self.rig.fly(self.flight.movement(), hand_seconds);
-        let hand = self.hand(hand_seconds);
+        let touched = self.touched(hand_seconds);
         self.tick = self.tick(elapsed_seconds);
         let mut strokes = Strokes::of_scene(&self.panel.scene, self.panel.scene.seed, &self.tick);
-        hand.into_iter().for_each(|stroke| strokes.push(stroke));
+        for lattice in touched {
+            let done = self.hand.act(&self.panel.brush, &self.panel.scene, lattice, self.tick.time_seconds);
+            done.into_iter().for_each(|stroke| strokes.push(stroke));
+        }
+        self.hand.due(self.tick.time_seconds).into_iter().for_each(|stroke| strokes.push(stroke));
+        strokes.disturb_by_hand(&self.panel.scene);
+        strokes.stroke_number = self.hand.stroke_number();
+        strokes.undo = std::mem::take(&mut self.undo);
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
         self.shown = self.rig.camera(self.tick.time_seconds);
         let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, display: self.panel.display };
@@ -349,6 +377,7 @@ impl Session {
         if let Some(seconds) = frame_seconds {
             self.readings.note_frame(seconds);
         }
+        self.panel.undoable = self.frame.groundwork().undoable();
         self.readings.time_seconds = self.tick.time_seconds;
         self.readings.steps = self.tick.steps;
         self.readings.image_size = self.frame.image_size();
@@ -388,8 +417,8 @@ impl Session {
         })
     }
 
-    /// What the hand did since the last frame. It works while paused too: then its strokes are all that changes.
-    fn hand(&mut self, seconds: f64) -> Vec<Stroke> {
+    /// Where the brush touched the surface since the last frame. It works while paused too: then its strokes are all that changes.
+    fn touched(&mut self, seconds: f64) -> Vec<[f32; 2]> {
         let held = self.pointer.grip() == Some(Grip::Brush);
         let repeats = self.repeat.acts(held, seconds, f64::from(self.panel.brush.per_second));
         let mut pixels = std::mem::take(&mut self.taps);
@@ -406,14 +435,7 @@ impl Session {
         if let Err(error) = self.gpu.device.poll(poll) {
             log::warn!("the GPU does not answer: {error}");
         }
-        let mut strokes = Vec::new();
-        for lattice in self.picker.answers() {
-            if let Some(stroke) = hand::stroke(&self.panel.brush, &self.panel.scene, lattice, self.hand_strokes) {
-                strokes.push(stroke);
-                self.hand_strokes += 1;
-            }
-        }
-        strokes
+        self.picker.answers()
     }
 }
 

@@ -51,6 +51,8 @@ pub struct Panel {
     pub light: usize,
     /// The left mouse button.
     pub brush: Brush,
+    /// How many strokes of the brush can be taken back.
+    pub undoable: usize,
     /// Whether the simulation stands.
     pub paused: bool,
     /// Whether the camera flies.
@@ -73,6 +75,7 @@ impl Panel {
             scenes,
             display: Display::default(),
             light: 0,
+            undoable: 0,
             paused: false,
             flies: false,
             shown: true,
@@ -195,7 +198,7 @@ impl Panel {
         self.light_group(ui);
         self.material_group(ui);
         self.simulation_group(ui);
-        self.brush_group(ui);
+        self.brush_group(ui, actions);
         self.camera_group(ui, actions);
         group(ui, "Cost", true, None, |ui| readings::show(ui, readings));
         ui.add_space(12.0);
