@@ -4,17 +4,16 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::camera::Camera;
-use crate::clock::Tick;
+use crate::clock::{StepSeconds, Tick};
 use crate::field::bins::BinError;
-use crate::field::compose::{Compose, ComposeSet};
 use crate::field::groundwork::Groundwork;
 use crate::field::normal_mips::{NormalMips, NormalMipsSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
+use crate::field::source::{self, Health, State};
 use crate::field::stamp::StampImage;
-use crate::field::wave::{self, WaveSet, Waves};
-use crate::field::{Dirty, Field, Region, base, compose, material, normal_mips, normals, pyramid};
-use crate::gpu::{BindingLayout, Gpu, Recorder, ShaderError, Texture, Timer};
+use crate::field::{self, Cover, Field, Region, Stack, base, material, normal_mips, normals, pyramid, stack};
+use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::mesh::{Mesh, Shape};
 use crate::present::{Present, PresentSet};
 use crate::scene::Scene;
@@ -43,13 +42,23 @@ pub struct Start {
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start =
-            Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, images: Vec::new() };
+        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, images: Vec::new() };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = material::POST;
         }
         start
+    }
+
+    /// Takes over a scene with the same field. Another seed makes another base, where the base is the program's own; an image has no
+    /// seed, nor has a text.
+    pub fn take_scene(&mut self, scene: &Scene) {
+        if scene.seed != self.scene.seed
+            && let Some(heights) = base::heights(scene)
+        {
+            *self = Self::new(scene, heights, self.mesh.take()).with_colours(self.colours.take());
+        }
+        self.scene = scene.clone();
     }
 
     /// The same under a picture, if there is one.
@@ -130,10 +139,8 @@ pub struct Frame {
     view_set: ViewSet,
     /// The view of the right side, where the picture is split.
     right_view_set: ViewSet,
-    waves: Option<(Waves, WaveSet)>,
+    stack: Stack,
     groundwork: Groundwork,
-    compose: Compose,
-    compose_set: ComposeSet,
     normals: Normals,
     normals_set: NormalsSet,
     normal_mips: NormalMips,
@@ -151,15 +158,12 @@ pub struct Frame {
     radiance: Texture<Radiance>,
     present_set: PresentSet,
     image_size: [u32; 2],
-    /// The texels whose layers changed since the height field was derived from them.
-    dirty: Dirty,
     traffic: Traffic,
 }
 
 /// What the field's passes of one frame touched, for the account of its bytes.
 #[derive(Clone, Copy, Debug, Default)]
 struct Traffic {
-    wave_steps: u32,
     derived_texels: u64,
 }
 
@@ -173,25 +177,17 @@ impl Frame {
         let scene = start.scene.clone();
         check_limits(gpu, &scene, image_size)?;
         check_shell(&scene, start.mesh.as_ref())?;
-        let mut field = Field::new(gpu, scene.field.size, scene.field.addressing, scene.wave.is_some());
+        let mut field = Field::new(gpu, scene.field.size, scene.field.addressing, stack::covers(&scene));
         if let Some(colours) = &start.colours {
             check_texture(gpu, "an albedo image", colours.size, "scale it down")?;
             field.albedo_map = albedo_image::upload(gpu, colours);
         }
         let view_layout = view::layout(gpu);
         let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
-        let waves = match &scene.wave {
-            Some(wave) => {
-                let waves = Waves::new(gpu)?;
-                let set = waves.bind(gpu, &field, wave, scene.plane_size_metres());
-                Some((waves, set))
-            }
-            None => None,
-        };
+        let stack = Stack::new(gpu, &field, &scene)?;
         let groundwork = Groundwork::new(gpu, &field, &scene, &start.images)?;
-        let (compose, normals, pyramid) = (Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let (compose_set, normals_set, pyramid_set) =
-            (compose.bind(gpu, &field), normals.bind(gpu, &field), pyramid.bind(gpu, &field));
+        let (normals, pyramid) = (Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (normals_set, pyramid_set) = (normals.bind(gpu, &field), pyramid.bind(gpu, &field));
         let normal_mips = NormalMips::new(gpu)?;
         let normal_mips_set = normal_mips.bind(gpu, &field);
         let present = Present::new(gpu, target)?;
@@ -204,10 +200,8 @@ impl Frame {
             view_layout,
             view_set,
             right_view_set,
-            waves,
+            stack,
             groundwork,
-            compose,
-            compose_set,
             normals,
             normals_set,
             normal_mips,
@@ -222,7 +216,6 @@ impl Frame {
             radiance,
             present_set,
             image_size,
-            dirty: Dirty::All,
             traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
@@ -230,15 +223,12 @@ impl Frame {
         Ok(frame)
     }
 
-    /// Puts the field back to its start: the relief as it was, the water still.
+    /// Puts the field back to its start: the relief as it was, every source at its beginning.
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
         self.field.material.write(gpu, &start.material);
         self.groundwork.reset(gpu, &start.heights);
-        if let Some((_, set)) = &mut self.waves {
-            set.reset(gpu, &self.field);
-        }
-        self.dirty = Dirty::All;
+        self.stack.reset(gpu, &self.scene);
     }
 
     /// Builds every pass anew from the device's present shaders, and leaves the field as it is.
@@ -255,9 +245,8 @@ impl Frame {
             let set = surface.bind(gpu, &self.field);
             surfaces.insert(choice, (surface, set));
         }
-        let (compose, normals, pyramid) = (Compose::new(gpu)?, Normals::new(gpu)?, Pyramid::new(gpu)?);
+        let (normals, pyramid) = (Normals::new(gpu)?, Pyramid::new(gpu)?);
         let normal_mips = NormalMips::new(gpu)?;
-        let waves = if self.waves.is_some() { Some(Waves::new(gpu)?) } else { None };
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
         if let Some(message) = gpu.take_error() {
@@ -267,28 +256,25 @@ impl Frame {
             stage.forget_pipelines();
             stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
         }
+        self.stack.reload(gpu, &self.field)?;
         self.groundwork.reload(gpu)?;
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
         self.surfaces = surfaces;
-        (self.compose, self.normals, self.pyramid, self.present) = (compose, normals, pyramid, present);
+        (self.normals, self.pyramid, self.present) = (normals, pyramid, present);
         self.normal_mips = normal_mips;
-        if let (Some((waves, _)), Some(new)) = (&mut self.waves, waves) {
-            *waves = new;
-        }
-        self.dirty = Dirty::All;
         Ok(())
     }
 
-    /// Takes over what does not change the field's contents: trace, light, material, depth, the wave's speed, damping and border.
-    /// The field's size and addressing, and whether there are waves, must be what they were.
+    /// Takes over what does not change the field's contents: trace, light, material, depth, the settings of its sources.
+    /// The field's size and addressing, and which sources there are, must be what they were.
     ///
     /// # Errors
     ///
     /// The picture's size with the new supersampling is beyond the adapter's limits, or a shader does not compile: the frame
     /// goes on with what it had.
     pub fn set_scene(&mut self, gpu: &Gpu, scene: &Scene) -> Result<(), FrameError> {
-        debug_assert!(scene.field == self.scene.field && scene.wave.is_some() == self.scene.wave.is_some());
+        debug_assert!(scene.field == self.scene.field && stack::kinds(scene) == stack::kinds(&self.scene));
         check_limits(gpu, scene, self.image_size)?;
         check_shell(scene, self.mesh.as_ref())?;
         let before = std::mem::replace(&mut self.scene, scene.clone());
@@ -299,13 +285,8 @@ impl Frame {
         if before.trace.supersampling != scene.trace.supersampling {
             self.retarget(gpu);
         }
-        if let (Some((_, set)), Some(wave)) = (&mut self.waves, &scene.wave)
-            && (before.wave != scene.wave || before.plane.width_metres != scene.plane.width_metres)
-        {
-            set.set_scene(gpu, &self.field, wave, scene.plane_size_metres());
-        }
-        if before.plane != scene.plane || before.wave != scene.wave || before.lod.filters() != scene.lod.filters() {
-            self.dirty = Dirty::All;
+        if before.plane != scene.plane || stack::differ(&before, scene) || before.lod.filters() != scene.lod.filters() {
+            self.stack.set_scene(gpu, scene);
         }
         Ok(())
     }
@@ -422,10 +403,9 @@ impl Frame {
         self.image_size
     }
 
-    /// The simulation's time step, seconds; none where nothing is simulated.
-    pub fn step_seconds(&self) -> Option<f64> {
-        let wave = self.scene.wave.as_ref()?;
-        Some(wave::step_seconds(wave, self.scene.texel_metres()))
+    /// The step of each simulation, seconds.
+    pub fn step_seconds(&self) -> StepSeconds {
+        source::step_seconds(&self.scene)
     }
 
     /// Records one frame. Where nobody looks (`target` is `None`) it only does to the layers what is to be done.
@@ -442,23 +422,19 @@ impl Frame {
     ) -> Result<(), FrameError> {
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         self.traffic = Traffic::default();
-        // Advance the waves by the steps that the clock owes, with the drops that fall before each.
-        if let Some((waves, set)) = &mut self.waves {
-            if waves.record(recorder, set, input.tick.steps, &input.strokes.splashes)? {
-                self.dirty = Dirty::All;
-            }
-            self.traffic.wave_steps = input.tick.steps;
-        }
         // Press this frame's stamps into the relief, and let it heal and cool in between.
         let pressed = self.groundwork.record(recorder, &self.field, input.tick, input.strokes)?;
-        self.dirty.merge(&pressed, self.field.size);
+        self.stack.relief_changed(&pressed, self.field.size);
+        // Advance what moves over it by the steps that the clock owes, with what disturbs it.
+        self.stack.advance(recorder, &self.scene, input.tick, input.strokes, self.field.size)?;
         let Some(target) = target else { return Ok(()) };
         self.build_for(gpu, &input.display)?;
-        // Derive what depends on the layers, where they changed.
-        let changed = std::mem::take(&mut self.dirty).regions(self.field.size);
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
+        // Compose relief and sources into the height field proper …
+        let (changed, texels) = self.stack.compose_top(recorder, &self.scene, self.field.size);
+        self.traffic.derived_texels = texels;
         if !changed.is_empty() {
-            self.traffic.derived_texels = self.derive(recorder, &changed);
+            self.derive(recorder, &changed);
         }
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
@@ -491,17 +467,11 @@ impl Frame {
         Ok(())
     }
 
-    /// Derives everything that depends on the layers alone, over the texels that changed; says over how many it came to.
-    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) -> u64 {
+    /// Derives everything that depends on the heights alone, over the texels that changed.
+    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
         let grown = |low, high| -> Vec<Region> {
             changed.iter().flat_map(|region| region.grown(low, high, self.field.size, self.field.addressing)).collect()
         };
-        // Compose relief and waves into the height field proper.
-        let (amplitude, current) = match (&self.scene.wave, &self.waves) {
-            (Some(wave), Some((_, set))) => (wave.amplitude, set.current()),
-            _ => (0.0, 0),
-        };
-        let texels = self.compose.record(recorder, &self.compose_set, changed, amplitude, current);
         // Everything below depends on that height alone: its slope, which a texel's neighbours see …
         let leaning = grown(1, 1);
         self.normals.record(recorder, &self.normals_set, &leaning, slope_per_height(&self.scene));
@@ -511,7 +481,6 @@ impl Frame {
         }
         // … and its bounds, which the cells before a texel see.
         self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
-        texels
     }
 
     /// Shows the field as it stands.
@@ -540,24 +509,43 @@ impl Frame {
         present.record(recorder, present_set, supersampling, &input.display, self.image_size[0], target);
     }
 
+    /// Bytes a texel of the field that the textures of its stack take together.
+    pub fn field_bytes_per_texel(&self) -> f64 {
+        let cover = if stack::covers(&self.scene) { Cover::CONTRACT.bytes_per_texel() } else { 0.0 };
+        field::bytes_per_texel(field::CONTRACT.iter().chain(self.stack.contract())) + cover
+    }
+
+    /// All that the field remembers from frame to frame, by name: its own layers, and each source's.
+    pub fn states(&self) -> Vec<(&'static str, State<'_>)> {
+        let layers = vec![&self.field.relief.texture, &self.field.material.texture];
+        let own = State { textures: layers, ..State::default() };
+        std::iter::once(("field", own)).chain(self.stack.states()).collect()
+    }
+
+    /// Takes over the numbers of [`Frame::states`], in their order; textures and buffers have been overwritten already.
+    pub fn restore(&mut self, numbers: &[Vec<u64>]) {
+        self.stack.restore(numbers.get(1..).unwrap_or_default());
+    }
+
+    /// How each source fares, with its name.
+    pub fn health(&mut self, gpu: &Gpu) -> Vec<(&'static str, Health)> {
+        self.stack.health(gpu)
+    }
+
     /// Bytes of GPU memory of every texture.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
-        self.field.memory_bytes() + self.groundwork.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
+        self.field.memory_bytes() + self.groundwork.memory_bytes() + self.stack.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
     /// tiles that a changed region is rounded to, are not counted.
     pub fn field_traffic_bytes(&self) -> u64 {
-        let texels = u64::from(self.field.size[0]) * u64::from(self.field.size[1]);
-        let waves = if self.waves.is_some() { 4 } else { 0 };
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
-        let derived = compose::TEXEL_BYTES + waves + normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
-        u64::from(self.traffic.wave_steps) * texels * wave::TEXEL_BYTES
-            + self.groundwork.traffic_bytes()
-            + self.traffic.derived_texels * derived
+        let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
+        self.stack.traffic_bytes() + self.groundwork.traffic_bytes() + self.traffic.derived_texels * derived
     }
 
     /// Bytes that tracing and presenting one picture reads and writes by design, where a view ray takes so many steps.

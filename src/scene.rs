@@ -5,6 +5,7 @@
 
 mod bodies;
 mod framing;
+mod layer;
 mod lights;
 mod lod;
 mod stamping;
@@ -20,6 +21,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
 pub use stamping::{Explosions, Healing, Imprint, Shots, Struck, Track, TrackMaker};
@@ -196,6 +198,8 @@ pub struct Wave {
     pub sponge_texels: u32,
     /// Height that a wave of amplitude 1 adds.
     pub amplitude: f32,
+    /// How it meets what lies beneath it.
+    pub blend: LayerBlend,
     /// Rain upon it, if any.
     pub rain: Option<Rain>,
     /// Posts that reflect it.
@@ -444,6 +448,7 @@ impl Default for Wave {
             boundary: Boundary::Reflecting,
             sponge_texels: 48,
             amplitude: 0.2,
+            blend: LayerBlend::Add,
             rain: None,
             obstacles: Vec::new(),
         }

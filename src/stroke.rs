@@ -13,13 +13,14 @@ use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
-use crate::clock::Tick;
+use crate::clock::{Simulation, Tick};
 use crate::field::stamp::{Blend, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Rain, Scene};
 
 /// One thing done to the field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Stroke {
     /// A stamp pressed into the relief.
     Press(Stamp),
@@ -59,8 +60,9 @@ impl Strokes {
             Self { presses: presses_between(scene, seed, &lattice, tick.previous_seconds, tick.time_seconds), ..Self::default() };
         if let Some((wave, rain)) = scene.wave.as_ref().and_then(|wave| Some((wave, wave.rain.as_ref()?))) {
             let step_seconds = wave::step_seconds(wave, lattice.texel_metres);
-            for step in 0..tick.steps {
-                let impulses = rain_in_step(rain, seed, &lattice, step_seconds, tick.first_step + u64::from(step));
+            let owed = tick.owed(Simulation::Wave);
+            for step in 0..owed.steps {
+                let impulses = rain_in_step(rain, seed, &lattice, step_seconds, owed.first_step + u64::from(step));
                 strokes.splashes.extend(impulses.map(|impulse| (step, impulse)));
             }
         }
@@ -239,13 +241,18 @@ mod tests {
     fn run(seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
         let scene = scene();
         let step = wave::step_seconds(scene.wave.as_ref().unwrap(), Lattice::of_scene(&scene).texel_metres);
-        let mut clock = Clock::new(Some(step));
+        let mut clock = Clock::new([Some(step), None, None]);
         let (mut presses, mut splashes) = (Vec::new(), Vec::new());
         for _ in 0..frames {
             let tick = clock.advance(Pace::Fixed { dt_seconds });
             let strokes = Strokes::of_scene(&scene, seed, &tick);
             presses.extend(strokes.presses);
-            splashes.extend(strokes.splashes.into_iter().map(|(step, impulse)| (tick.first_step + u64::from(step), impulse)));
+            splashes.extend(
+                strokes
+                    .splashes
+                    .into_iter()
+                    .map(|(step, impulse)| (tick.owed(Simulation::Wave).first_step + u64::from(step), impulse)),
+            );
         }
         (presses, splashes)
     }

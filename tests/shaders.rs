@@ -4,7 +4,7 @@ use std::mem::{offset_of, size_of};
 
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::blocks::Blocks;
-use rilievo::field::compose::ComposeParams;
+use rilievo::field::compose::{ComposeLayer, ComposeParams};
 use rilievo::field::cool::CoolParams;
 use rilievo::field::heal::HealParams;
 use rilievo::field::normal_mips::NormalMipsParams;
@@ -14,7 +14,7 @@ use rilievo::field::stamp::{Blend, Profile, StampExtra, StampParams, StampRecord
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
-use rilievo::scene::{PomCounts, PyramidLeaf};
+use rilievo::scene::{LayerBlend, PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
 use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::light_probe::{Lit, Matter};
@@ -202,7 +202,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
         ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
         ("Blocks", layout!(Blocks { first, count })),
-        ("ComposeParams", layout!(ComposeParams { blocks, amplitude, tiles_per_row, size })),
+        ("ComposeParams", layout!(ComposeParams { blocks, size, tiles_per_row, layers })),
+        ("ComposeLayer", layout!(ComposeLayer { amplitude, blend })),
         ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size, wrap })),
         ("NormalMipsParams", layout!(NormalMipsParams { blocks, source_size, size, last_weight })),
         ("PyramidParams", layout!(PyramidParams { blocks, source_size, size, wrap })),
@@ -299,6 +300,15 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
     let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
     for (name, number) in profiles.into_iter().chain(blends) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
+    }
+}
+
+#[test]
+fn the_blends_of_layers_have_the_same_numbers_on_both_sides() {
+    let module = module(&["common/region".to_owned(), "field/compose".to_owned()]);
+    for blend in LayerBlend::ALL {
+        let name = format!("COMPOSE_{blend:?}").to_uppercase();
+        assert_eq!(constant(&module, &name), Some(blend as u32), "{name}");
     }
 }
 

@@ -4,6 +4,7 @@
 //   pyramid       r32float, mips   upper bound of the bilinear surface over a node
 //   normal_map    rgba16float, mips  level 0: unit normal in field space, height; above it their means
 //   material_map  r32uint          soot, bare, post, gloss, heat: see common/material.wgsl
+//   cover_map     rgba16float      what a simulation lays over the surface, for its albedo; 1×1 where none does
 //
 // Composed after common/view.wgsl.
 
@@ -11,6 +12,8 @@
 @group(1) @binding(1) var pyramid: texture_2d<f32>;
 @group(1) @binding(2) var normal_map: texture_2d<f32>;
 @group(1) @binding(3) var material_map: texture_2d<u32>;
+// Binding 4 is the picture of surface/albedo_image.wgsl.
+@group(1) @binding(5) var cover_map: texture_2d<f32>;
 
 // The texel that an unbounded coordinate means, an axis.
 fn address(texel: vec2i) -> vec2i {

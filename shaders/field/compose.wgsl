@@ -1,27 +1,44 @@
-// Compose: relief and waves become the height field, clamped to [0, 1].
+// Compose: what lies beneath and the layers over it become one height, clamped to [0, 1] at the top of the stack.
 //
-//   relief   r32float  read    base height with every stamp pressed into it, unclamped
-//   wave     r32float  read    displacement in units of the amplitude; not read where the amplitude is 0
-//   height   r32float  write   the height field: 1 = reference surface, 0 = deepest
-//   clipped  u32       write   texels of each tile that were out of range
+//   beneath  r32float  read    relief, or the bed of the water below: unclamped
+//   layer_i  r32float  read    the value of a layer, LAYERS of them from the ground up
+//   composed r32float  write   the height field, 1 = reference surface, 0 = deepest; or, below the top, a bed, unclamped
+//   clipped  u32       write   texels of each tile that were out of range, at the top
 //
-// 4 or 8 bytes in, 4 out a texel. Specification: src/reference/compose.rs. Composed after common/region.wgsl.
+// 4 bytes and 4 more a layer in, 4 out a texel. Specification: src/reference/compose.rs. Composed after common/region.wgsl.
 
 struct ComposeParams {
     blocks: Blocks,     // its tiles
-    amplitude: f32,     // height that a wave of displacement 1 adds
-    tiles_per_row: u32,
     size: vec2u,        // of the field, texels
+    tiles_per_row: u32,
+    layers: array<ComposeLayer, 4>,
+}
+
+struct ComposeLayer {
+    amplitude: f32,
+    blend: u32,         // COMPOSE_ADD and so on
 }
 
 override TILE: u32;
+override LAYERS: u32;
+override AT_TOP: bool;
+
+// The blends: a test compares them with Rust's.
+const COMPOSE_ADD: u32 = 0u;
+const COMPOSE_MULTIPLY: u32 = 1u;
+const COMPOSE_MIN: u32 = 2u;
+const COMPOSE_MAX: u32 = 3u;
+const COMPOSE_REPLACE: u32 = 4u;
 
 @group(1) @binding(0) var<storage, read> params: ComposeParams;
-@group(1) @binding(1) var relief: texture_2d<f32>;
-@group(1) @binding(2) var wave: texture_2d<f32>;
-@group(1) @binding(3) var height: texture_storage_2d<r32float, write>;
-@group(1) @binding(4) var<storage, read_write> clipped: array<u32>;
-@group(1) @binding(5) var<storage, read> block_list: array<u32>;
+@group(1) @binding(1) var beneath: texture_2d<f32>;
+@group(1) @binding(2) var layer_0: texture_2d<f32>;
+@group(1) @binding(3) var layer_1: texture_2d<f32>;
+@group(1) @binding(4) var layer_2: texture_2d<f32>;
+@group(1) @binding(5) var layer_3: texture_2d<f32>;
+@group(1) @binding(6) var composed: texture_storage_2d<r32float, write>;
+@group(1) @binding(7) var<storage, read_write> clipped: array<u32>;
+@group(1) @binding(8) var<storage, read> block_list: array<u32>;
 
 fn listed_block(index: u32) -> u32 {
     return block_list[index];
@@ -49,6 +66,16 @@ fn out_of_range(value: f32) -> bool {
     return bits > 0x3f800000u && bits != 0x80000000u;
 }
 
+fn compose_blend(layer: ComposeLayer, below: f32, value: f32) -> f32 {
+    switch layer.blend {
+        case COMPOSE_ADD: { return below + layer.amplitude * value; }
+        case COMPOSE_MULTIPLY: { return below * (1.0 + layer.amplitude * (value - 1.0)); }
+        case COMPOSE_MIN: { return min(below, layer.amplitude * value); }
+        case COMPOSE_MAX: { return max(below, layer.amplitude * value); }
+        default: { return below + layer.amplitude * (value - below); }
+    }
+}
+
 @compute @workgroup_size(TILE, TILE)
 fn compose(
     @builtin(workgroup_id) workgroup: vec3u,
@@ -59,17 +86,32 @@ fn compose(
     let tile = block_of(params.blocks, workgroup, workgroups);
     let texel = tile * TILE + local.xy;
     if all(texel < params.size) {
-        var value = textureLoad(relief, texel, 0).r;
-        if params.amplitude != 0.0 {
-            value += params.amplitude * textureLoad(wave, texel, 0).r;
+        var value = textureLoad(beneath, texel, 0).r;
+        if LAYERS > 0u {
+            value = compose_blend(params.layers[0], value, textureLoad(layer_0, texel, 0).r);
         }
-        textureStore(height, texel, vec4f(into_range(value), 0.0, 0.0, 0.0));
-        if out_of_range(value) {
-            atomicAdd(&clipped_here, 1u);
+        if LAYERS > 1u {
+            value = compose_blend(params.layers[1], value, textureLoad(layer_1, texel, 0).r);
+        }
+        if LAYERS > 2u {
+            value = compose_blend(params.layers[2], value, textureLoad(layer_2, texel, 0).r);
+        }
+        if LAYERS > 3u {
+            value = compose_blend(params.layers[3], value, textureLoad(layer_3, texel, 0).r);
+        }
+        if AT_TOP {
+            textureStore(composed, texel, vec4f(into_range(value), 0.0, 0.0, 0.0));
+            if out_of_range(value) {
+                atomicAdd(&clipped_here, 1u);
+            }
+        } else {
+            textureStore(composed, texel, vec4f(value, 0.0, 0.0, 0.0));
         }
     }
-    workgroupBarrier();
-    if local_index == 0u && all(tile * TILE < params.size) {
-        clipped[tile.y * params.tiles_per_row + tile.x] = atomicLoad(&clipped_here);
+    if AT_TOP {
+        workgroupBarrier();
+        if local_index == 0u && all(tile * TILE < params.size) {
+            clipped[tile.y * params.tiles_per_row + tile.x] = atomicLoad(&clipped_here);
+        }
     }
 }

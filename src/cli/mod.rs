@@ -20,7 +20,7 @@ use clap::{Parser, Subcommand};
 pub use common::{CommonOptions, MachineOptions};
 pub use compare::{CompareOptions, Truth};
 pub use display::DisplayOptions;
-pub use modes::{AdaptersOptions, CaptureOptions, Channel, LiveOptions, StressOptions};
+pub use modes::{AdaptersOptions, CaptureOptions, Channel, LiveOptions, ResumeOptions, StressOptions};
 pub use refusal::Refusal;
 
 /// What the user asked for.

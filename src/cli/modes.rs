@@ -7,12 +7,38 @@ use clap::Args;
 use super::values::{channel, dt, frames, stamp_radius, stamps, whole_u32};
 use super::{CommonOptions, MachineOptions};
 
+/// Where a run begins, if not at the start of its scene.
+#[derive(Args, Clone, Debug, Default, PartialEq)]
+pub struct ResumeOptions {
+    /// Do what a journal says that --record wrote: its scene, its time, its strokes; flags may change how that is seen, not the
+    /// field [default: none]
+    #[arg(long, value_name = "FILE", help_heading = "Scene")]
+    #[arg(conflicts_with_all = ["scene", "seed", "field", "height", "height_range", "text", "font", "albedo", "depth", "mesh"])]
+    pub replay: Option<PathBuf>,
+
+    /// Go on from what --save-state wrote, of the same scene, seed and size [default: none, the scene's start]
+    #[arg(long, value_name = "FILE", conflicts_with = "replay", help_heading = "Scene")]
+    pub load_state: Option<PathBuf>,
+}
+
 /// `rilievo live`.
 #[derive(Args, Clone, Debug, PartialEq)]
 pub struct LiveOptions {
     /// What every mode takes.
     #[command(flatten)]
     pub common: CommonOptions,
+
+    /// Where it begins.
+    #[command(flatten)]
+    pub resume: ResumeOptions,
+
+    /// Record everything that is done to the field in a journal, whole when the window closes [default: none]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["replay", "load_state"])]
+    pub record: Option<PathBuf>,
+
+    /// Save all that the field remembers when the window closes, for --load-state [default: none]
+    #[arg(long, value_name = "FILE")]
+    pub save_state: Option<PathBuf>,
 
     /// Run this many frames at a fixed step of 1/60 s, then exit [default: none, until the window is closed]
     #[arg(long, value_name = "N", value_parser = frames, requires = "out", allow_negative_numbers = true)]
@@ -29,6 +55,14 @@ pub struct CaptureOptions {
     /// What every mode takes.
     #[command(flatten)]
     pub common: CommonOptions,
+
+    /// Where it begins.
+    #[command(flatten)]
+    pub resume: ResumeOptions,
+
+    /// Save all that the field remembers after the last frame, for --load-state [default: none]
+    #[arg(long, value_name = "FILE")]
+    pub save_state: Option<PathBuf>,
 
     /// The directory to write to; frames, fields and the manifest of an earlier run are removed from it
     #[arg(long, value_name = "DIR")]
@@ -111,6 +145,10 @@ pub struct StressOptions {
     /// What every mode takes.
     #[command(flatten)]
     pub common: CommonOptions,
+
+    /// Where it begins.
+    #[command(flatten)]
+    pub resume: ResumeOptions,
 
     /// How many frames to measure
     #[arg(long, value_name = "N", value_parser = frames, default_value = "60", allow_negative_numbers = true)]

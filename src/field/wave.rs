@@ -4,12 +4,27 @@
 //! Shader: `shaders/field/wave.wgsl`. Specification: [`crate::reference::wave`].
 
 use bytemuck::{Pod, Zeroable};
+use serde::{Deserialize, Serialize};
 
-use super::Field;
 use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
+use super::source::{Heights, Source, SourceInput, State};
+use super::{Dirty, Field, LAYER, roles};
+use crate::clock::Simulation;
 use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, UniformSlots};
-use crate::scene::{self, Boundary, Obstacle};
+use crate::gpu::{
+    Binding, BindingLayout, Contract, Gpu, Kernel, List, Recorder, Role, ShaderError, Texture, Uniform, UniformSlots,
+};
+use crate::scene::{self, Boundary, Layer, Obstacle, Scene};
+
+roles! {
+    /// What a texel of the waves is free to do.
+    WaveMask = "wave mask", R8Uint, mips false, wgpu::TextureUsages::TEXTURE_BINDING.union(wgpu::TextureUsages::COPY_DST), "bits of wave::Mask", from "upload", to "wave";
+    /// The state of the waves at one step.
+    WaveState = "wave", R32Float, mips false, LAYER, "displacement, amplitudes", from "wave", to "wave, compose";
+}
+
+/// The textures of waves, each as often as there are of it.
+pub const CONTRACT: &[(Contract, u32)] = &[(WaveMask::CONTRACT, 1), (WaveState::CONTRACT, 2)];
 
 /// Bytes a texel of one step by design: both states and the mask in, one state out.
 pub const TEXEL_BYTES: u64 = 13;
@@ -216,7 +231,8 @@ impl Mask {
 ///
 /// With s the squared distance in radii it is strength·(1 − s)²·(1 − ring·s), smooth, and 0 from the radius on. On an infinitely
 /// fine lattice, ring = 4 makes its net zero; on a real one, cut by obstacles, [`Impulse::ring`] says what does.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Impulse {
     centre: [f32; 2],
     radius: f32,
@@ -355,8 +371,9 @@ pub struct WaveSet {
     impulses: Vec<WaveImpulse>,
     batches: Vec<WaveBatch>,
     buffers: Buffers,
-    mask_view: wgpu::TextureView,
-    states: [wgpu::TextureView; 2],
+    mask_texture: Texture<WaveMask>,
+    /// The waves at this step and the last, in turn.
+    pub states: [Texture<WaveState>; 2],
     /// One for each side of the ping-pong: the one whose state is current.
     step_groups: [wgpu::BindGroup; 2],
     splash_groups: [wgpu::BindGroup; 2],
@@ -372,24 +389,25 @@ struct Buffers {
 }
 
 impl WaveSet {
-    /// Which of [`Field::wave`] is the current state.
+    /// Which of [`WaveSet::states`] is the current one.
     pub fn current(&self) -> usize {
         self.current
     }
 
     /// Stills the water.
-    pub fn reset(&mut self, gpu: &Gpu, field: &Field) {
-        let [width, height] = field.wave[0].size();
+    pub fn reset(&mut self, gpu: &Gpu) {
+        let [width, height] = self.ground.size;
         let still = vec![0.0_f32; width as usize * height as usize];
-        field.wave.iter().for_each(|state| state.write(gpu, &still));
+        self.states.iter().for_each(|state| state.write(gpu, &still));
     }
 
     /// Takes over a scene's wave, whose boundary and obstacles may be others: the water goes on as it is.
-    pub fn set_scene(&mut self, gpu: &Gpu, field: &Field, wave: &scene::Wave, plane_metres: [f64; 2]) {
-        self.mask = Mask::of_scene(wave, field.size, plane_metres);
+    pub fn set_scene(&mut self, gpu: &Gpu, wave: &scene::Wave, plane_metres: [f64; 2]) {
+        let size = self.ground.size;
+        self.mask = Mask::of_scene(wave, size, plane_metres);
         self.ground.wrap = self.mask.periodic();
-        field.wave_mask.write(gpu, self.mask.bytes());
-        self.buffers.params.write(gpu, &WaveParams::new(wave, field.size, plane_metres[0] / f64::from(field.size[0])));
+        self.mask_texture.write(gpu, self.mask.bytes());
+        self.buffers.params.write(gpu, &WaveParams::new(wave, size, plane_metres[0] / f64::from(size[0])));
     }
 }
 
@@ -432,8 +450,8 @@ impl Waves {
         Ok(Self { step, splash, step_layout, splash_layout })
     }
 
-    /// Binds a field that has waves, for a scene's wave on a plane of this size. It starts as the field's textures are.
-    pub fn bind(&self, gpu: &Gpu, field: &Field, wave: &scene::Wave, plane_metres: [f64; 2]) -> WaveSet {
+    /// Makes still water for a scene's wave on a plane of this size, of so many texels.
+    pub fn bind(&self, gpu: &Gpu, size: [u32; 2], wave: &scene::Wave, plane_metres: [f64; 2]) -> WaveSet {
         // Room for a few drops; a stress test makes more.
         let buffers = Buffers {
             params: Uniform::new(gpu, "wave"),
@@ -442,49 +460,49 @@ impl Waves {
             impulses: List::new(gpu, "wave impulses", 64),
             batches: UniformSlots::new(gpu, "wave batches", 64),
         };
-        let mask_view = field.wave_mask.view.clone();
-        let states = [field.wave[0].view.clone(), field.wave[1].view.clone()];
-        let (step_groups, splash_groups) = self.groups(gpu, &mask_view, &states, &buffers);
+        let mask_texture = Texture::new(gpu, size);
+        let states = [Texture::new(gpu, size), Texture::new(gpu, size)];
+        let (step_groups, splash_groups) = self.groups(gpu, &mask_texture, &states, &buffers);
         let mut set = WaveSet {
-            ground: Ground { size: field.size, wrap: false, tile: [Self::TILE; 2] },
-            mask: Mask::new(field.size, wave.boundary, |_, _| false),
+            ground: Ground { size, wrap: false, tile: [Self::TILE; 2] },
+            mask: Mask::new(size, wave.boundary, |_, _| false),
             bins: Bins::default(),
             impulses: Vec::new(),
             batches: Vec::new(),
             buffers,
-            mask_view,
+            mask_texture,
             states,
             step_groups,
             splash_groups,
             current: 0,
         };
-        set.set_scene(gpu, field, wave, plane_metres);
+        set.set_scene(gpu, wave, plane_metres);
         set
     }
 
     fn groups(
         &self,
         gpu: &Gpu,
-        mask: &wgpu::TextureView,
-        states: &[wgpu::TextureView; 2],
+        mask: &Texture<WaveMask>,
+        states: &[Texture<WaveState>; 2],
         buffers: &Buffers,
     ) -> ([wgpu::BindGroup; 2], [wgpu::BindGroup; 2]) {
         let texture = wgpu::BindingResource::TextureView;
         let step = |current: usize| {
             let resources = [
                 buffers.params.buffer.as_entire_binding(),
-                texture(mask),
-                texture(&states[1 - current]),
-                texture(&states[current]),
+                texture(&mask.view),
+                texture(&states[1 - current].view),
+                texture(&states[current].view),
             ];
             self.step_layout.bind(gpu, &resources)
         };
         let splash = |current: usize| {
             let resources = [
                 buffers.params.buffer.as_entire_binding(),
-                texture(mask),
-                texture(&states[1 - current]),
-                texture(&states[current]),
+                texture(&mask.view),
+                texture(&states[1 - current].view),
+                texture(&states[current].view),
                 buffers.tiles.buffer.as_entire_binding(),
                 buffers.members.buffer.as_entire_binding(),
                 buffers.impulses.buffer.as_entire_binding(),
@@ -554,7 +572,7 @@ impl Waves {
         buffers.impulses.write(gpu, &set.impulses);
         buffers.batches.write(gpu, &set.batches);
         if grown {
-            (set.step_groups, set.splash_groups) = self.groups(gpu, &set.mask_view, &set.states, &set.buffers);
+            (set.step_groups, set.splash_groups) = self.groups(gpu, &set.mask_texture, &set.states, &set.buffers);
         }
     }
 }
@@ -582,5 +600,88 @@ impl WaveSet {
             }
         }
         Ok(falls)
+    }
+}
+
+/// The waves of a scene, as a layer of its stack.
+pub struct WaveSource {
+    waves: Waves,
+    set: WaveSet,
+    /// Steps of the last frame.
+    steps: u32,
+}
+
+impl WaveSource {
+    /// Still water over a field.
+    ///
+    /// # Errors
+    ///
+    /// The shader does not compile.
+    pub fn new(gpu: &Gpu, field: &Field, scene: &Scene, wave: &scene::Wave) -> Result<Self, ShaderError> {
+        let waves = Waves::new(gpu)?;
+        let set = waves.bind(gpu, field.size, wave, scene.plane_size_metres());
+        Ok(Self { waves, set, steps: 0 })
+    }
+}
+
+impl Source for WaveSource {
+    fn name(&self) -> &'static str {
+        "wave"
+    }
+
+    fn layer(&self, scene: &Scene) -> Layer {
+        scene.wave.as_ref().map_or(Layer { blend: scene::LayerBlend::Add, amplitude: 0.0 }, |wave| Layer {
+            blend: wave.blend,
+            amplitude: wave.amplitude,
+        })
+    }
+
+    fn reset(&mut self, gpu: &Gpu, _scene: &Scene) {
+        self.set.reset(gpu);
+    }
+
+    fn set_scene(&mut self, gpu: &Gpu, scene: &Scene) {
+        if let Some(wave) = &scene.wave {
+            self.set.set_scene(gpu, wave, scene.plane_size_metres());
+        }
+    }
+
+    fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
+        self.waves = Waves::new(gpu)?;
+        Ok(())
+    }
+
+    fn advance(&mut self, recorder: &mut Recorder<'_>, input: &SourceInput<'_>) -> Result<Dirty, BinError> {
+        self.steps = input.tick.owed(Simulation::Wave).steps;
+        let moved = self.waves.record(recorder, &mut self.set, self.steps, &input.strokes.splashes)?;
+        Ok(if moved { Dirty::All } else { Dirty::Nothing })
+    }
+
+    fn contract(&self) -> &'static [(Contract, u32)] {
+        CONTRACT
+    }
+
+    fn heights(&self) -> Heights<'_> {
+        Heights { views: [&self.set.states[0].view, &self.set.states[1].view], current: self.set.current }
+    }
+
+    fn state(&self) -> State<'_> {
+        State {
+            textures: self.set.states.iter().map(|state| &state.texture).collect(),
+            buffers: Vec::new(),
+            numbers: vec![self.set.current as u64],
+        }
+    }
+
+    fn restore(&mut self, numbers: &[u64]) {
+        self.set.current = usize::from(numbers.first() == Some(&1));
+    }
+
+    fn traffic_bytes(&self) -> u64 {
+        u64::from(self.steps) * TEXEL_BYTES * self.set.ground.size.map(u64::from).iter().product::<u64>()
+    }
+
+    fn memory_bytes(&self) -> u64 {
+        self.set.mask_texture.memory_bytes() + self.set.states.iter().map(Texture::memory_bytes).sum::<u64>()
     }
 }

@@ -56,6 +56,44 @@ pub fn check(path: &Path) -> Result<(), WriteError> {
     beside(path).map(drop).map_err(|error| WriteError::new(path, error))
 }
 
+/// A file that is being written beside its place, over a longer time; it vanishes unless it is persisted.
+#[derive(Debug)]
+pub struct Partial {
+    file: tempfile::NamedTempFile,
+    path: PathBuf,
+}
+
+impl Partial {
+    /// Begins one for this place.
+    ///
+    /// # Errors
+    ///
+    /// No file can be made there.
+    pub fn beside(path: &Path) -> Result<Self, WriteError> {
+        let file = beside(path).map_err(|error| WriteError::new(path, error))?;
+        Ok(Self { file, path: path.to_owned() })
+    }
+
+    /// Puts it in its place.
+    ///
+    /// # Errors
+    ///
+    /// It cannot be renamed; then nothing is left of it, and what was in its place stays.
+    pub fn persist(self) -> Result<(), WriteError> {
+        self.file.persist(&self.path).map(drop).map_err(|error| WriteError::new(self.path, error.error))
+    }
+}
+
+impl std::io::Write for Partial {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
 fn write_inner(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>) -> std::io::Result<()> {
     let mut file = beside(path)?;
     let mut writer = BufWriter::with_capacity(1 << 16, file.as_file_mut());

@@ -1,4 +1,5 @@
-//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out.
+//! Files: images of heights and colours, fonts, meshes and scenes in; pictures, channels and the manifest out; journals and states
+//! both ways.
 
 pub mod atomic;
 pub mod colour_image;
@@ -6,6 +7,7 @@ pub mod exr_file;
 pub mod font;
 pub mod height_image;
 pub mod imprint_image;
+pub mod journal;
 pub mod manifest;
 pub mod mesh_file;
 pub mod output_dir;
@@ -13,6 +15,7 @@ pub mod png_file;
 mod resample;
 pub mod scene_file;
 pub mod shader_folder;
+pub mod state_file;
 
 use std::io::Write as _;
 

@@ -221,6 +221,28 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
         (scene, Given { field_size: true, camera: false })
     };
     apply(&mut scene, overrides)?;
+    prepare(which, scene, &given, overrides, image_size)
+}
+
+/// Loads a scene that stands elsewhere whole: a journal's. Of the overrides, those apply that say how it is seen.
+///
+/// # Errors
+///
+/// It has values out of range, or its image is unfit.
+pub fn load_whole(mut scene: Scene, overrides: &SceneOverrides, image_size: [u32; 2]) -> Result<LoadedScene, SceneFileError> {
+    overrides.look(&mut scene);
+    let name = scene.name.clone();
+    prepare(&name, scene, &Given { field_size: true, camera: true }, &SceneOverrides::default(), image_size)
+}
+
+/// Checks a scene and reads its files.
+fn prepare(
+    which: &str,
+    mut scene: Scene,
+    given: &Given,
+    overrides: &SceneOverrides,
+    image_size: [u32; 2],
+) -> Result<LoadedScene, SceneFileError> {
     scene.validate().map_err(|error| SceneFileError::Invalid { name: which.to_owned(), error })?;
     let image = match &scene.base {
         Base::Image { path, range } => Some(HeightImage::read(path, *range)?),
@@ -367,52 +389,64 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(source) = &overrides.mesh {
         scene.mesh = Some(scene::Mesh { source: source.clone(), tiles: [1.0, 1.0], ..scene::Mesh::default() });
     }
-    if let Some(triangles) = overrides.mesh_triangles {
-        scene.trace.mesh_triangles = triangles;
-    }
-    scene.trace.shell |= overrides.shell;
-    scene.trace.displaced_depth |= overrides.displaced_depth;
-    if let Some(technique) = overrides.technique {
-        scene.trace.technique = technique;
-    }
-    if let Some(shadow) = overrides.shadow {
-        scene.trace.shadow = shadow;
-    }
-    if let Some(threshold) = overrides.lod {
-        scene.lod.threshold = threshold;
-    }
-    if let Some(shading) = overrides.shading {
-        scene.material.model = shading;
-    }
-    if let Some([least, most]) = overrides.samples {
-        let trace = &mut scene.trace;
-        (trace.pom_samples_min, trace.pom_samples_max) = (least, most);
-        // Techniques with one count for all angles take what the others take of a ray that grazes.
-        (trace.steep_layers, trace.relief_linear_steps) = (most, most);
-    }
-    if let Some(counts) = overrides.pom_counts {
-        scene.trace.pom_counts = counts;
-    }
-    if let Some(bias) = overrides.relief_depth_bias {
-        scene.trace.relief_depth_bias = bias;
-    }
-    if let Some(leaf) = overrides.pyramid_leaf {
-        scene.trace.pyramid_leaf = leaf;
-    }
     if let Some(seed) = overrides.seed {
         scene.seed = seed;
     }
-    if let Some(CameraPlacement { eye, target }) = overrides.camera {
-        let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
-        scene.camera = Camera { eye, target, ..still };
-    }
-    if let Some(fov) = overrides.vertical_fov_degrees {
-        scene.camera.vertical_fov_degrees = fov;
-    }
-    if let Some(half_angle) = overrides.light_half_angle_degrees {
-        scene.light.half_angle_degrees = half_angle;
-    }
+    overrides.look(scene);
     Ok(())
+}
+
+impl SceneOverrides {
+    /// Applies those that only say how the field is seen.
+    pub fn look(&self, scene: &mut Scene) {
+        if let Some(triangles) = self.mesh_triangles {
+            scene.trace.mesh_triangles = triangles;
+        }
+        scene.trace.shell |= self.shell;
+        scene.trace.displaced_depth |= self.displaced_depth;
+        if let Some(technique) = self.technique {
+            scene.trace.technique = technique;
+        }
+        if let Some(shadow) = self.shadow {
+            scene.trace.shadow = shadow;
+        }
+        if let Some(threshold) = self.lod {
+            scene.lod.threshold = threshold;
+        }
+        if let Some(shading) = self.shading {
+            scene.material.model = shading;
+        }
+        if let Some([least, most]) = self.samples {
+            let trace = &mut scene.trace;
+            (trace.pom_samples_min, trace.pom_samples_max) = (least, most);
+            // Techniques with one count for all angles take what the others take of a ray that grazes.
+            (trace.steep_layers, trace.relief_linear_steps) = (most, most);
+        }
+        if let Some(counts) = self.pom_counts {
+            scene.trace.pom_counts = counts;
+        }
+        if let Some(bias) = self.relief_depth_bias {
+            scene.trace.relief_depth_bias = bias;
+        }
+        if let Some(leaf) = self.pyramid_leaf {
+            scene.trace.pyramid_leaf = leaf;
+        }
+        if let Some(CameraPlacement { eye, target }) = self.camera {
+            let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+            scene.camera = Camera { eye, target, ..still };
+        }
+        if let Some(fov) = self.vertical_fov_degrees {
+            scene.camera.vertical_fov_degrees = fov;
+        }
+        if let Some(half_angle) = self.light_half_angle_degrees {
+            scene.light.half_angle_degrees = half_angle;
+        }
+    }
+
+    /// Whether they say where the field is seen from.
+    pub fn moves_camera(&self) -> bool {
+        self.camera.is_some() || self.vertical_fov_degrees.is_some()
+    }
 }
 
 /// The field's size for what the command line says, over an image of this size or none.

@@ -3,17 +3,16 @@
 use std::collections::BTreeMap;
 
 use super::headless::Headless;
-use super::{ModeError, progress, wait_for, wait_for_gpu};
-use crate::camera::Camera;
+use super::script::Script;
+use super::{ModeError, progress, state, wait_for, wait_for_gpu};
 use crate::cli::{CaptureOptions, Channel, Verbosity};
-use crate::clock::{Clock, Pace};
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, Readback};
+use crate::io::atomic;
 use crate::io::manifest::{self, Manifest};
 use crate::io::output_dir::{OutputDir, Owner};
 use crate::io::{exr_file, png_file};
 use crate::scene::Scene;
-use crate::stroke::Strokes;
 use crate::surface::channels::Channel as Numbers;
 use crate::surface::{Channels, Choice, View};
 
@@ -26,21 +25,21 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormS
 ///
 /// The scene, its image, the adapter, its limits or the output directory are unfit, in this order; nothing is left behind.
 pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeError> {
-    let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
-    let scene = &start.scene;
+    let Headless { gpu, mut start, mut frame, picture, resumed } = Headless::open(&options.common, &options.resume)?;
+    let total = u64::from(options.warmup) + u64::from(options.frames);
+    let mut script = Script::open(&gpu, &mut frame, resumed, options.dt, total)?;
+    let scene = &start.scene.clone();
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
+    if let Some(path) = &options.save_state {
+        atomic::check(path)?;
+    }
     let directory = OutputDir::create(&options.out, Owner::Capture)?;
 
-    let mut clock = Clock::new(frame.step_seconds());
     let mut manifest = Manifest::new(scene, &gpu.adapter.get_info(), options.common.image_size, options.dt, options.warmup);
-    let progress =
-        progress::bar(u64::from(options.warmup) + u64::from(options.frames), &scene.name, verbosity == Verbosity::Quiet);
-    for number in 0..u64::from(options.warmup) + u64::from(options.frames) {
-        let tick = clock.advance(Pace::Fixed { dt_seconds: options.dt });
-        let strokes = Strokes::of_scene(scene, scene.seed, &tick);
-        let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input =
-            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
+    let progress = progress::bar(total, &scene.name, verbosity == Verbosity::Quiet);
+    for number in 0..total {
+        let moment = script.next(&gpu, &mut frame, &mut start)?;
+        let input = moment.input(options.common.display.display(scene));
         let file_index = number.checked_sub(u64::from(options.warmup));
         let target = file_index.map(|_| picture.view());
         let mut encoder = gpu.encoder("capture");
@@ -51,11 +50,14 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
             // Fewer frames than u32 can count were asked for.
             let index = index as u32;
             let files = write_files(&gpu, &frame, &picture, &channels, &input, &directory, index)?;
-            manifest.frames.push(manifest::Frame::new(index, tick.time_seconds, &camera, files));
+            manifest.frames.push(manifest::Frame::new(index, moment.tick.time_seconds, &moment.camera, files));
         }
         progress.inc(1);
     }
     progress.finish_and_clear();
+    if let Some(path) = &options.save_state {
+        state::save(&gpu, &frame, script.clock(), path)?;
+    }
     manifest.write(directory.path())?;
     directory.finish();
     Ok(())

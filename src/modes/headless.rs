@@ -4,10 +4,12 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use super::capture::{PICTURE_FORMAT, Picture};
+use super::script::{self, Resumed};
 use super::{ModeError, load_scene, open_device, start};
-use crate::cli::CommonOptions;
+use crate::cli::{CommonOptions, ResumeOptions};
 use crate::frame::{self, Frame, Start};
 use crate::gpu::{Gpu, Timer};
+use crate::io::scene_file;
 
 /// A frame that nobody watches.
 pub struct Headless {
@@ -19,6 +21,8 @@ pub struct Headless {
     pub frame: Frame,
     /// What it draws to.
     pub picture: Picture,
+    /// Where the run begins.
+    pub resumed: Resumed,
 }
 
 impl Headless {
@@ -26,15 +30,20 @@ impl Headless {
     ///
     /// # Errors
     ///
-    /// The scene, its image, the adapter or its limits are unfit, in this order.
-    pub fn open(common: &CommonOptions) -> Result<Self, ModeError> {
-        let loaded = load_scene(common)?;
+    /// The scene, its image, the journal, the adapter, its limits or the state are unfit, in this order.
+    pub fn open(common: &CommonOptions, resume: &ResumeOptions) -> Result<Self, ModeError> {
+        let journal = script::journal(resume)?;
+        let loaded = match &journal {
+            Some(journal) => scene_file::load_whole(journal.scene.clone(), &common.overrides(), common.image_size)?,
+            None => load_scene(common)?,
+        };
         let gpu = open_device(common)?;
         frame::check_limits(&gpu, &loaded.scene, common.image_size)?;
         let start = start(&loaded);
+        let resumed = script::resumed(resume, journal, common.overrides(), &start.scene, &start.heights)?;
         let frame = Frame::new(&gpu, &start, common.image_size, PICTURE_FORMAT)?;
         let picture = Picture::new(&gpu, common.image_size);
-        Ok(Self { gpu, start, frame, picture })
+        Ok(Self { gpu, start, frame, picture, resumed })
     }
 }
 

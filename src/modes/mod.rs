@@ -6,15 +6,21 @@ pub mod compare;
 pub mod headless;
 pub mod live;
 mod progress;
+pub mod script;
+pub mod state;
 pub mod statistics;
 pub mod stress;
+
+use std::time::{Duration, Instant};
 
 use crate::cli::CommonOptions;
 use crate::frame::{FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
 use crate::io::atomic::WriteError;
+use crate::io::journal::JournalError;
 use crate::io::scene_file::{self, LoadedScene, SceneFileError};
+use crate::io::state_file::StateFileError;
 
 /// Why a mode did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +40,12 @@ pub enum ModeError {
     /// The specification does not say what the scene shows.
     #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
     NoReference,
+    /// A journal is unfit.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    /// A saved state is unfit.
+    #[error(transparent)]
+    State(#[from] StateFileError),
     /// The table does not hold against an earlier one.
     #[error(transparent)]
     Check(#[from] compare::check::CheckError),
@@ -82,8 +94,22 @@ pub fn start(loaded: &LoadedScene) -> Start {
 /// The device was lost.
 pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Result<Vec<u8>, ModeError> {
     wait_for_gpu(gpu)?;
-    readback.take().unwrap_or_else(|| Err(ReadbackError::missing())).map_err(ModeError::from)
+    // The GPU is done, but another thread that polls the same device may be the one that runs this readback's callback, and not have
+    // come to it yet. wgpu runs every callback, so that the limit is for a bug alone.
+    let deadline = Instant::now() + CALLBACK_LIMIT;
+    loop {
+        if let Some(bytes) = readback.take() {
+            return bytes.map_err(ModeError::from);
+        }
+        if Instant::now() > deadline {
+            return Err(ReadbackError::missing().into());
+        }
+        std::thread::yield_now();
+    }
 }
+
+/// How long another thread may take to run a callback that is due. It takes microseconds, on a loaded machine milliseconds.
+const CALLBACK_LIMIT: Duration = Duration::from_secs(10);
 
 /// Waits until the GPU has done all that was submitted.
 ///

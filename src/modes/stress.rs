@@ -7,17 +7,15 @@ use serde::Serialize;
 
 use super::capture::read_channels;
 use super::headless::{self, Headless};
+use super::script::Script;
 use super::statistics::{Spread, Steps};
 use super::{ModeError, progress, wait_for, wait_for_gpu};
-use crate::camera::Camera;
 use crate::cli::{StressOptions, Verbosity};
-use crate::clock::{Clock, Pace};
-use crate::field;
-use crate::frame::{Frame, FrameInput};
+use crate::frame::Frame;
 use crate::gpu::{Gpu, PassTime, Readback};
 use crate::io::atomic;
 use crate::io::manifest::{Adapter, write_json};
-use crate::stroke::{self, Strokes};
+use crate::stroke;
 use crate::surface::{Channels, Choice};
 
 /// Frames before the first that counts: pipelines compile and caches fill in them.
@@ -71,28 +69,25 @@ pub struct Report {
 ///
 /// The scene, its image, the adapter, its limits or the JSON file are unfit.
 pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, ModeError> {
-    let Headless { gpu, start, mut frame, picture } = Headless::open(&options.common)?;
-    let scene = &start.scene;
+    let Headless { gpu, mut start, mut frame, picture, resumed } = Headless::open(&options.common, &options.resume)?;
+    let total = WARMUP_FRAMES + u64::from(options.frames);
+    let mut script = Script::open(&gpu, &mut frame, resumed, DT_SECONDS, total)?;
+    let scene = &start.scene.clone();
     frame.timer = headless::trusted_timer(&gpu);
     let pass = Channels::new(&gpu, Choice::of(scene))?;
 
     if let Some(path) = &options.json {
         atomic::check(path)?;
     }
-    let mut clock = Clock::new(frame.step_seconds());
     let mut samples = Samples::default();
     let mut bytes = Vec::new();
-    let total = WARMUP_FRAMES + u64::from(options.frames);
     let progress = progress::bar(total, &scene.name, verbosity == Verbosity::Quiet);
     let mut steps = Steps::default();
     for number in 0..total {
-        let tick = clock.advance(Pace::Fixed { dt_seconds: DT_SECONDS });
-        let mut strokes = Strokes::of_scene(scene, scene.seed, &tick);
+        let mut moment = script.next(&gpu, &mut frame, &mut start)?;
         let (count, radius) = (options.stamps, options.stamp_radius);
-        strokes.presses.extend(stroke::stress_discs(scene.seed, number, count, radius, scene.field.size));
-        let camera = Camera::at(&scene.camera, tick.time_seconds);
-        let input =
-            FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: options.common.display.display(scene) };
+        moment.strokes.presses.extend(stroke::stress_discs(scene.seed, number, count, radius, scene.field.size));
+        let input = moment.input(options.common.display.display(scene));
         let mut encoder = gpu.encoder("stress");
         let recording = Instant::now();
         frame.record(&gpu, &mut encoder, &input, Some(picture.view()))?;
@@ -130,7 +125,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         steps_per_pixel: steps,
         bytes_per_frame,
         gb_per_s: bytes_per_frame / frame_ms / 1e6,
-        field_bytes_per_texel: field::bytes_per_texel(),
+        field_bytes_per_texel: frame.field_bytes_per_texel(),
         gpu_memory_bytes: frame.memory_bytes(),
         clipped_texels: clipped_texels(&gpu, &frame)?,
     };

@@ -1,17 +1,27 @@
-//! Composition: relief and waves become the height field proper, clamped to [0, 1]. Specification of
+//! Composition: what lies beneath and the layers over it become one height, clamped to [0, 1] at the top. Specification of
 //! `shaders/field/compose.wgsl`.
 
-/// The height field, and how many of its texels were out of range: NaN becomes 0, ±Inf the bound that it exceeds.
+use crate::scene::{Layer, LayerBlend};
+
+/// The height of one texel before it is clamped: what lies beneath, and each layer with its value, from the ground up.
 ///
-/// `wave` is the displacement in units of `amplitude`; without waves the amplitude is 0 and it is not looked at. The sum is
-/// made in f32, as the kernel makes it: the bound that it is held to is the rounding of one product and one sum.
-pub fn compose(relief: &[f32], wave: &[f32], amplitude: f32) -> (Vec<f32>, u32) {
+/// Made in f32, as the kernel makes it: the bound that it is held to is the rounding of one product and one sum a layer.
+pub fn blend(beneath: f32, layers: &[(Layer, f32)]) -> f32 {
+    layers.iter().fold(beneath, |below, &(Layer { blend, amplitude }, value)| match blend {
+        LayerBlend::Add => below + amplitude * value,
+        LayerBlend::Multiply => below * (1.0 + amplitude * (value - 1.0)),
+        LayerBlend::Min => below.min(amplitude * value),
+        LayerBlend::Max => below.max(amplitude * value),
+        LayerBlend::Replace => below + amplitude * (value - below),
+    })
+}
+
+/// Heights as the field holds them, and how many of them were out of range: NaN becomes 0, ±Inf the bound that it exceeds.
+pub fn clamped(heights: impl IntoIterator<Item = f32>) -> (Vec<f32>, u32) {
     let mut clipped = 0;
-    let heights = relief
-        .iter()
-        .enumerate()
-        .map(|(texel, relief)| {
-            let value = if amplitude == 0.0 { *relief } else { relief + amplitude * wave[texel] };
+    let heights = heights
+        .into_iter()
+        .map(|value| {
             let (height, touched) = into_range(value);
             clipped += u32::from(touched);
             height

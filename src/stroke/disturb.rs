@@ -1,7 +1,7 @@
 //! What is pressed into the ground disturbs what moves over it.
 
 use super::{Lattice, Strokes, presses_between};
-use crate::clock::Tick;
+use crate::clock::{Simulation, Tick};
 use crate::field::stamp::{Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Boundary, Scene, Wave};
@@ -18,8 +18,9 @@ impl Strokes {
             // A frame ends between two steps. What falls after its last step disturbs the first of the next frame: so each step gets
             // what falls in its own time, however frames cut it.
             let step_seconds = wave::step_seconds(wave, lattice.texel_metres);
+            let owed = tick.owed(Simulation::Wave);
             let time = |step: u64| step as f64 * step_seconds;
-            let [first, end] = [tick.first_step, tick.first_step + u64::from(tick.steps)];
+            let [first, end] = [owed.first_step, owed.first_step + u64::from(owed.steps)];
             for stamp in presses_between(scene, seed, &lattice, time(first), time(end)) {
                 if stamp.profile == Profile::Crater && falls_into_water(&stamp, wave, scene, &lattice) {
                     let step = ((stamp.at_seconds / step_seconds) as u64).clamp(first, end - 1);

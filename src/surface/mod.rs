@@ -184,7 +184,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
     constants
 }
 
-/// Bind group layout 1 of everything that traces: the field, and the image over it.
+/// Bind group layout 1 of everything that traces: the field, and what lies over it.
 pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
         gpu,
@@ -195,6 +195,7 @@ pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
             Binding::Float(false),
             Binding::Float(true),
             Binding::Uint,
+            Binding::Float(true),
             Binding::Float(true),
         ],
     )
@@ -210,6 +211,7 @@ pub(crate) fn bind_field(gpu: &Gpu, layout: &BindingLayout, field: &field::Field
             wgpu::BindingResource::TextureView(&field.normal.view),
             wgpu::BindingResource::TextureView(&field.material.view),
             wgpu::BindingResource::TextureView(&field.albedo_map.view),
+            wgpu::BindingResource::TextureView(&field.cover.view),
         ],
     )
 }

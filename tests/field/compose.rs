@@ -1,10 +1,13 @@
 //! Composition against its reference, poison included.
 
-use rilievo::field::compose::Compose;
+use rilievo::field::compose::{Compose, LAYERS_MAX};
+use rilievo::field::source::Heights;
+use rilievo::field::wave::WaveState;
 use rilievo::field::{Field, Region};
-use rilievo::gpu::{Gpu, Readback};
+use rilievo::gpu::{Gpu, Readback, Texture};
 use rilievo::reference::Addressing;
-use rilievo::reference::compose::compose;
+use rilievo::reference::compose::{blend, clamped};
+use rilievo::scene::{Layer, LayerBlend};
 
 use crate::support::fields::Random;
 use crate::support::gpu::{gpu, read, run, wait_for};
@@ -39,17 +42,23 @@ fn poisoned(size: [u32; 2]) -> Vec<f32> {
         .collect()
 }
 
+/// A layer of a stack, and its values.
+type Values = (Layer, Vec<f32>);
+
 /// The height field that the kernel makes, and how many texels it clamped.
-fn composed(gpu: &Gpu, size: [u32; 2], relief: &[f32], wave: &[f32], amplitude: f32) -> (Vec<f32>, u32) {
-    let field = Field::new(gpu, size, Addressing::Wrap, amplitude != 0.0);
+fn composed(gpu: &Gpu, size: [u32; 2], relief: &[f32], layers: &[Values]) -> (Vec<f32>, u32) {
+    let field = Field::new(gpu, size, Addressing::Wrap, false);
     field.relief.write(gpu, relief);
-    if amplitude != 0.0 {
-        field.wave[0].write(gpu, wave);
-    }
-    let kernel = Compose::new(gpu).expect("the shader compiles");
-    let set = kernel.bind(gpu, &field);
+    let textures: Vec<Texture<WaveState>> = layers.iter().map(|_| Texture::new(gpu, size)).collect();
+    textures.iter().zip(layers).for_each(|(texture, (_, values))| texture.write(gpu, values));
+    // The second of two textures is the current one, and the first holds nothing.
+    let still = Texture::<WaveState>::new(gpu, size);
+    let heights: Vec<_> = textures.iter().map(|texture| Heights { views: [&still.view, &texture.view], current: 1 }).collect();
+    let kernel = Compose::new(gpu, layers.len(), true).expect("the shader compiles");
+    let set = kernel.bind(gpu, &field, &field.relief.view, &heights, &field.height.view);
+    let currents: Vec<_> = layers.iter().map(|(layer, _)| (*layer, 1)).collect();
     let counts = run(gpu, |recorder| {
-        kernel.record(recorder, &set, &[Region::all(size)], amplitude, 0);
+        kernel.record(recorder, &set, &[Region::all(size)], &currents);
         Readback::record_buffer(gpu, recorder.encoder, &field.clipped, field.clipped.size())
     });
     counts.start();
@@ -58,13 +67,21 @@ fn composed(gpu: &Gpu, size: [u32; 2], relief: &[f32], wave: &[f32], amplitude: 
     (heights, counts.iter().sum())
 }
 
+/// What the reference makes of the same.
+fn expected(relief: &[f32], layers: &[Values]) -> (Vec<f32>, u32) {
+    clamped(relief.iter().enumerate().map(|(texel, &beneath)| {
+        let values: Vec<_> = layers.iter().map(|(layer, values)| (*layer, values[texel])).collect();
+        blend(beneath, &values)
+    }))
+}
+
 #[test]
 fn poison_is_clamped_and_counted_as_the_reference_does() {
     let Some(gpu) = gpu() else { return };
     for size in SIZES {
         let relief = poisoned(size);
-        let (heights, clipped) = composed(gpu, size, &relief, &[], 0.0);
-        let (expected, expected_clipped) = compose(&relief, &[], 0.0);
+        let (heights, clipped) = composed(gpu, size, &relief, &[]);
+        let (expected, expected_clipped) = expected(&relief, &[]);
         let bits = |heights: &[f32]| heights.iter().map(|height| height.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&heights), bits(&expected), "{size:?}");
         assert_eq!(clipped, expected_clipped, "{size:?}");
@@ -72,25 +89,53 @@ fn poison_is_clamped_and_counted_as_the_reference_does() {
 }
 
 #[test]
-fn waves_are_added() {
+fn layers_are_blended_from_the_ground_up() {
     let Some(gpu) = gpu() else { return };
-    for size in SIZES {
-        let mut random = Random::new(2);
-        let relief: Vec<_> = (0..size[0] * size[1]).map(|_| random.uniform(0.0, 1.0)).collect();
-        let wave: Vec<_> = relief.iter().map(|_| random.uniform(-2.0, 2.0)).collect();
-        let (heights, clipped) = composed(gpu, size, &relief, &wave, 0.2);
-        let (expected, expected_clipped) = compose(&relief, &wave, 0.2);
+    let mut random = Random::new(2);
+    // Every blend alone, every pair in this order, and stacks as high as a segment may be.
+    let blends = LayerBlend::ALL;
+    let alone = blends.iter().map(|&blend| vec![blend]);
+    let pairs = blends.iter().flat_map(|&low| blends.iter().map(move |&high| vec![low, high]));
+    let high = (0..5).map(|turn| (0..LAYERS_MAX).map(|layer| blends[(turn + 2 * layer) % 5]).collect());
+    for (index, stack) in alone.chain(pairs).chain(high).enumerate() {
+        let size = SIZES[index % SIZES.len()];
+        let texels = size[0] * size[1];
+        let relief: Vec<_> = (0..texels).map(|_| random.uniform(0.0, 1.0)).collect();
+        let layers: Vec<Values> = stack
+            .iter()
+            .map(|&blend| {
+                let amplitude = random.uniform(0.2, 1.0);
+                (Layer { blend, amplitude }, (0..texels).map(|_| random.uniform(-1.0, 2.0)).collect())
+            })
+            .collect();
+        let (heights, clipped) = composed(gpu, size, &relief, &layers);
+        let (expected, expected_clipped) = expected(&relief, &layers);
         for (height, expected) in heights.iter().zip(&expected) {
-            assert!(f64::from((height - expected).abs()) <= tolerances::COMPOSED_HEIGHT, "{height} for {expected}");
+            let bound = tolerances::COMPOSED_HEIGHT * layers.len() as f64;
+            assert!(f64::from((height - expected).abs()) <= bound, "{stack:?}: {height} for {expected}");
         }
-        assert_eq!(clipped, expected_clipped, "{size:?}");
+        assert_eq!(clipped, expected_clipped, "{stack:?}");
     }
+}
+
+#[test]
+fn below_the_top_nothing_is_clamped() {
+    let Some(gpu) = gpu() else { return };
+    let size = [33, 17];
+    let field = Field::new(gpu, size, Addressing::Wrap, false);
+    let relief: Vec<f32> = (0..size[0] * size[1]).map(|texel| texel as f32 - 100.0).collect();
+    field.relief.write(gpu, &relief);
+    let bed = Texture::<WaveState>::new(gpu, size);
+    let kernel = Compose::new(gpu, 0, false).expect("the shader compiles");
+    let set = kernel.bind(gpu, &field, &field.relief.view, &[], &bed.view);
+    run(gpu, |recorder| kernel.record(recorder, &set, &[Region::all(size)], &[]));
+    assert_eq!(read::<_, f32>(gpu, &bed), relief);
 }
 
 #[test]
 fn the_reference_obeys_the_range_rule() {
     let relief = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, 0.25, 1.5, -1e-30];
-    let (heights, clipped) = compose(&relief, &[], 0.0);
+    let (heights, clipped) = clamped(relief);
     assert_eq!(heights, [0.0, 1.0, 0.0, 0.0, 0.25, 1.0, 0.0]);
     assert!(heights.iter().all(|height| height.is_sign_positive()));
     assert_eq!(clipped, 5);

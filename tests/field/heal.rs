@@ -68,7 +68,7 @@ impl Wall {
         let mut groundwork = Groundwork::new(gpu, &field, scene, &[]).expect("its shaders compile");
         field.relief.write(gpu, &base);
         groundwork.reset(gpu, &base);
-        Some(Self { gpu, field, groundwork, base, clock: Clock::new(None), scene: scene.clone() })
+        Some(Self { gpu, field, groundwork, base, clock: Clock::new([None; 3]), scene: scene.clone() })
     }
 
     fn frame(&mut self, dt_seconds: f64, hand: &[Stamp]) -> Dirty {

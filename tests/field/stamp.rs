@@ -496,9 +496,9 @@ fn four_thousand_stamps_cost_at_most_two_wave_steps() {
     let gpu = &gpu;
     let size = [1024, 1024];
     let (stamps, waves) = (Stamps::new(gpu).expect("the shader compiles"), Waves::new(gpu).expect("the shader compiles"));
-    let field = Field::new(gpu, size, Addressing::Wrap, true);
+    let field = Field::new(gpu, size, Addressing::Wrap, false);
     let wave = scene::Wave { boundary: Boundary::Periodic, ..scene::Wave::default() };
-    let (mut wall, mut pool) = (stamps.bind(gpu, &field, &[]), waves.bind(gpu, &field, &wave, [1.0, 1.0]));
+    let (mut wall, mut pool) = (stamps.bind(gpu, &field, &[]), waves.bind(gpu, size, &wave, [1.0, 1.0]));
     let seconds = |record: &mut dyn FnMut(&mut Recorder<'_>)| {
         let start = Instant::now();
         run(gpu, record);

@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use rilievo::field::Field;
 use rilievo::field::bins::BinError;
 use rilievo::field::wave::{Impulse, Mask, WaveError, WaveParams, WaveSet, Waves, check, step_seconds};
 use rilievo::gpu::Gpu;
 use rilievo::reference;
-use rilievo::scene::{Addressing, Boundary, Obstacle, Wave};
+use rilievo::scene::{Boundary, LayerBlend, Obstacle, Wave};
 use rilievo::stroke::{Random, Stream};
 
 use crate::support::gpu::{gpu, read, run};
@@ -17,7 +16,7 @@ use crate::support::tolerances::*;
 struct Pool {
     gpu: &'static Gpu,
     waves: Waves,
-    field: Field,
+    size: [u32; 2],
     set: WaveSet,
     scene: Wave,
 }
@@ -26,19 +25,18 @@ impl Pool {
     fn new(size: [u32; 2], scene: Wave) -> Option<Self> {
         let gpu = gpu()?;
         let waves = Waves::new(gpu).expect("the shader compiles");
-        let field = Field::new(gpu, size, Addressing::Clamp, true);
-        let set = waves.bind(gpu, &field, &scene, size.map(f64::from));
-        Some(Self { gpu, waves, field, set, scene })
+        let set = waves.bind(gpu, size, &scene, size.map(f64::from));
+        Some(Self { gpu, waves, size, set, scene })
     }
 
     /// Puts the water into a state, and one step ago into another.
     fn put(&self, current: impl Fn(f64, f64) -> f64, previous: impl Fn(f64, f64) -> f64) {
-        let [width, height] = self.field.size;
+        let [width, height] = self.size;
         let fill = |function: &dyn Fn(f64, f64) -> f64| -> Vec<f32> {
             (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| function(x.into(), y.into()) as f32).collect()
         };
-        self.field.wave[self.set.current()].write(self.gpu, &fill(&current));
-        self.field.wave[1 - self.set.current()].write(self.gpu, &fill(&previous));
+        self.set.states[self.set.current()].write(self.gpu, &fill(&current));
+        self.set.states[1 - self.set.current()].write(self.gpu, &fill(&previous));
     }
 
     fn run(&mut self, steps: u32, splashes: &[(u32, Impulse)]) -> bool {
@@ -48,19 +46,19 @@ impl Pool {
 
     /// u and u⁻ as the reference holds them, for its measures.
     fn state(&self) -> reference::wave::Wave {
-        let wide = |state: usize| read::<_, f32>(self.gpu, &self.field.wave[state]).into_iter().map(f64::from).collect();
+        let wide = |state: usize| read::<_, f32>(self.gpu, &self.set.states[state]).into_iter().map(f64::from).collect();
         reference::wave::Wave { current: wide(self.set.current()), previous: wide(1 - self.set.current()), ..self.reference() }
     }
 
     /// Still water of the same settings on the CPU.
     fn reference(&self) -> reference::wave::Wave {
-        let [width, height] = self.field.size;
+        let [width, height] = self.size;
         let mut wave = reference::wave::Wave::still(
             [width as usize, height as usize],
             self.scene.boundary,
             f64::from(self.scene.courant).powi(2),
         );
-        let params = WaveParams::new(&self.scene, self.field.size, 1.0);
+        let params = WaveParams::new(&self.scene, self.size, 1.0);
         wave.damping = f64::from(params.damping);
         wave.sponge_damping = f64::from(params.sponge_damping);
         wave.sponge_texels = f64::from(params.sponge_width);
@@ -69,7 +67,7 @@ impl Pool {
             let centre = [(index % width as usize) as f32 + 0.5, (index / width as usize) as f32 + 0.5];
             *closed = self.scene.obstacles.iter().any(|obstacle| {
                 (0..2).all(|axis| {
-                    let size = self.field.size[axis] as f32;
+                    let size = self.size[axis] as f32;
                     let apart = (centre[axis] - obstacle.centre[axis] * size).abs();
                     let apart = if self.scene.boundary == Boundary::Periodic { apart.min(size - apart) } else { apart };
                     apart <= obstacle.half_extent_metres[axis]
@@ -89,6 +87,7 @@ fn scene(boundary: Boundary, courant: f32, damping: f32) -> Wave {
         boundary,
         sponge_texels: 6,
         amplitude: 1.0,
+        blend: LayerBlend::Add,
         rain: None,
         obstacles: Vec::new(),
     }
@@ -254,7 +253,7 @@ fn impulses_have_no_net_even_where_obstacles_and_borders_cut_them() {
         for (centre, radius) in
             [([10.0, 9.0], 6.0), ([15.3, 15.8], 5.0), ([20.0, 16.0], 7.0), ([0.2, 31.0], 8.0), ([12.0, 5.5], 2.0)]
         {
-            pool.set.reset(pool.gpu, &pool.field);
+            pool.set.reset(pool.gpu);
             pool.run(0, &[(0, Impulse::new(centre, radius, 1.0))]);
             let state = pool.state();
             assert!(peak(&state.current) > 0.05, "{boundary:?} at {centre:?}: something happens");

@@ -51,12 +51,5 @@ fn wait(gpu: &Gpu) {
 
 /// The bytes of a readback that was started.
 pub fn wait_for(gpu: &Gpu, readback: &Readback) -> Vec<u8> {
-    loop {
-        wait(gpu);
-        // Another test's thread may have polled in between and be about to run this readback's callback.
-        if let Some(bytes) = readback.take() {
-            return bytes.expect("the device is there");
-        }
-        std::thread::yield_now();
-    }
+    rilievo::modes::wait_for(gpu, readback).expect("the device is there")
 }

@@ -64,7 +64,7 @@ fn numbers(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>, size: [u32; 2])
     let gpu = gpu()?;
     let start = Start::new(scene, heights, mesh);
     let mut frame = Frame::new(gpu, &start, size, PICTURE_FORMAT).expect("the scene fits");
-    let tick = Clock::new(None).advance(Pace::Fixed { dt_seconds: 1.0 / 60.0 });
+    let tick = Clock::new([None; 3]).advance(Pace::Fixed { dt_seconds: 1.0 / 60.0 });
     let (strokes, camera) = (Strokes::default(), Camera::at(&scene.camera, 0.0));
     let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Display::default() };
     let target = rilievo::modes::capture::Picture::new(gpu, size);

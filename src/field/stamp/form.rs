@@ -6,6 +6,7 @@ use crate::field::bins::{Capsule, Disc};
 
 /// The form of a stamp: its profile p over ρ, the distance from its centre in radii. Each is 0 from ρ = 1 on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[repr(u32)]
 pub enum Profile {
     /// 1 everywhere, with a hard edge.
@@ -65,6 +66,7 @@ pub const CRATER_GRAIN: f64 = 0.06;
 
 /// How a stamp meets what is there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[repr(u32)]
 pub enum Blend {
     /// layer + height·p.
@@ -85,6 +87,7 @@ impl Blend {
 
 /// One stamp.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stamp {
     /// When it is pressed, seconds: what is due in one frame is pressed in this order.
     pub at_seconds: f64,
@@ -131,6 +134,7 @@ pub struct Stamp {
 
 /// An image as the form of a stamp: its values are the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ImageForm {
     /// Which of the images of [`StampImages`](super::StampImages).
     pub number: u32,

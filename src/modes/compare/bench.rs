@@ -5,13 +5,14 @@ use std::collections::hash_map::Entry;
 
 use super::variant::Variant;
 use crate::camera::Camera;
-use crate::clock::{Clock, Pace, Tick};
+use crate::clock::Tick;
 use crate::frame::{Frame, FrameInput, Start};
 use crate::gpu::Gpu;
 use crate::io::height_image::HeightImage;
 use crate::mesh::Mesh;
 use crate::modes::capture::{PICTURE_FORMAT, Picture, read_channels, read_texture};
 use crate::modes::headless::trusted_timer;
+use crate::modes::script::Solo;
 use crate::modes::{ModeError, wait_for_gpu};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
@@ -63,13 +64,12 @@ impl Bench {
     /// The strokes of a frame are too many, or the device was lost.
     pub fn after(gpu: &Gpu, start: &Start, mut frame: Frame, picture: Picture, warmup: u32) -> Result<Self, ModeError> {
         let scene = &start.scene;
-        let mut clock = Clock::new(frame.step_seconds());
+        let mut solo = Solo::new(&frame, DT_SECONDS);
         let mut tick = Tick::default();
         for number in 0..=warmup {
-            tick = clock.advance(Pace::Fixed { dt_seconds: DT_SECONDS });
-            let strokes = Strokes::of_scene(scene, scene.seed, &tick);
-            let camera = Camera::at(&scene.camera, tick.time_seconds);
-            let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Display::default() };
+            let moment = solo.next(scene);
+            tick = moment.tick;
+            let input = moment.input(Display::default());
             let target = (number == warmup).then_some(picture.view());
             let mut encoder = gpu.encoder("compare");
             frame.record(gpu, &mut encoder, &input, target)?;
@@ -77,7 +77,7 @@ impl Bench {
             wait_for_gpu(gpu)?;
         }
         // What was owed is done: from here on time stands.
-        tick = Tick { previous_seconds: tick.time_seconds, steps: 0, ..tick };
+        tick = Tick { previous_seconds: tick.time_seconds, owed: Default::default(), ..tick };
         frame.timer = trusted_timer(gpu);
         Ok(Self {
             frame,

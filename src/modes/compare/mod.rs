@@ -27,7 +27,7 @@ use super::headless::Headless;
 use super::statistics::{Spread, Steps};
 use super::{ModeError, progress};
 use crate::camera::Camera;
-use crate::cli::{CompareOptions, Truth, Verbosity};
+use crate::cli::{CompareOptions, ResumeOptions, Truth, Verbosity};
 use crate::frame;
 use crate::gpu::Gpu;
 use crate::io::atomic::{self, WriteError};
@@ -45,7 +45,7 @@ use crate::surface::{Shadow, Technique};
 /// all files are written nevertheless.
 pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, ModeError> {
     let earlier = options.check.as_deref().map(Earlier::read).transpose()?;
-    let Headless { gpu, start, frame, picture } = Headless::open(&options.common)?;
+    let Headless { gpu, start, frame, picture, .. } = Headless::open(&options.common, &ResumeOptions::default())?;
     if options.truth == Truth::Reference && !truth::knows(&start.scene) {
         return Err(ModeError::NoReference);
     }

@@ -11,7 +11,6 @@ use super::pick::Picker;
 use super::readings::Readings;
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
-use crate::field::{self, base};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
 use crate::io::{png_file, shader_folder};
@@ -220,7 +219,7 @@ impl Session {
 
     /// Back to the start of the scene, with what the panel changed.
     fn restart(&mut self) {
-        self.start.scene = self.panel.scene.clone();
+        self.start.take_scene(&self.panel.scene);
         self.frame.reset(&self.gpu, &self.start);
         self.clock = Clock::new(self.frame.step_seconds());
         self.picker.forget();
@@ -233,12 +232,6 @@ impl Session {
         self.panel.scene.seed = seed;
         self.panel.original.seed = seed;
         self.apply_scene();
-        // An image has no seed, nor has a text.
-        if let Some(heights) = base::heights(&self.panel.scene) {
-            self.start = Start::new(&self.panel.scene, heights, self.start.mesh.clone())
-                .with_colours(self.start.colours.take())
-                .with_images(std::mem::take(&mut self.start.images));
-        }
         self.restart();
         self.panel.say(format!("Seed {seed}"));
     }
@@ -322,7 +315,7 @@ impl Session {
         let valid = self.panel.scene.validate().map_err(|error| error.to_string());
         match valid.and_then(|()| self.frame.set_scene(&self.gpu, &self.panel.scene).map_err(|error| error.to_string())) {
             Ok(()) => {
-                self.clock.set_step(self.frame.step_seconds());
+                self.clock.set_steps(self.frame.step_seconds());
                 self.rig.set_vertical_fov_degrees(self.panel.scene.camera.vertical_fov_degrees);
             }
             Err(error) => {
@@ -379,10 +372,10 @@ impl Session {
         }
         self.panel.undoable = self.frame.groundwork().undoable();
         self.readings.time_seconds = self.tick.time_seconds;
-        self.readings.steps = self.tick.steps;
+        self.readings.steps = self.tick.owed.iter().map(|owed| owed.steps).sum();
         self.readings.image_size = self.frame.image_size();
         self.readings.field_size = self.frame.field.size;
-        self.readings.field_bytes_per_texel = field::bytes_per_texel();
+        self.readings.field_bytes_per_texel = self.frame.field_bytes_per_texel();
         self.readings.gpu_memory_bytes = self.frame.memory_bytes();
     }
 
