@@ -42,7 +42,8 @@ pub struct Start {
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start = Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, images: Vec::new() };
+        let mut start =
+            Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, images: Vec::new() };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = material::POST;
@@ -525,6 +526,7 @@ impl Frame {
     /// Takes over the numbers of [`Frame::states`], in their order; textures and buffers have been overwritten already.
     pub fn restore(&mut self, numbers: &[Vec<u64>]) {
         self.stack.restore(numbers.get(1..).unwrap_or_default());
+        self.groundwork.resume();
     }
 
     /// How each source fares, with its name.
@@ -537,7 +539,12 @@ impl Frame {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
-        self.field.memory_bytes() + self.groundwork.memory_bytes() + self.stack.memory_bytes() + self.radiance.memory_bytes() + stage + 4 * width * height
+        self.field.memory_bytes()
+            + self.groundwork.memory_bytes()
+            + self.stack.memory_bytes()
+            + self.radiance.memory_bytes()
+            + stage
+            + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the

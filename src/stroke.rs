@@ -229,23 +229,22 @@ mod tests {
     use crate::clock::{Clock, Pace};
     use crate::scene::{self, Shots};
 
-    fn scene() -> Scene {
-        Scene {
-            wave: Some(scene::Wave { rain: Some(Rain::default()), ..scene::Wave::default() }),
-            shots: Some(Shots::default()),
-            ..Scene::default()
-        }
+    fn wall() -> Scene {
+        Scene { shots: Some(Shots::default()), ..Scene::default() }
+    }
+
+    fn water() -> Scene {
+        Scene { wave: Some(scene::Wave { rain: Some(Rain::default()), ..scene::Wave::default() }), ..Scene::default() }
     }
 
     /// All strokes of a run, each with the number of the step before which it falls.
-    fn run(seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
-        let scene = scene();
-        let step = wave::step_seconds(scene.wave.as_ref().unwrap(), Lattice::of_scene(&scene).texel_metres);
-        let mut clock = Clock::new([Some(step), None, None]);
+    fn run(scene: &Scene, seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
+        let step = scene.wave.as_ref().map(|wave| wave::step_seconds(wave, Lattice::of_scene(scene).texel_metres));
+        let mut clock = Clock::new([step, None, None]);
         let (mut presses, mut splashes) = (Vec::new(), Vec::new());
         for _ in 0..frames {
             let tick = clock.advance(Pace::Fixed { dt_seconds });
-            let strokes = Strokes::of_scene(&scene, seed, &tick);
+            let strokes = Strokes::of_scene(scene, seed, &tick);
             presses.extend(strokes.presses);
             splashes.extend(
                 strokes
@@ -260,33 +259,61 @@ mod tests {
     #[test]
     fn frames_do_not_change_what_falls_and_when() {
         // 12 s cut into frames of 1/60 s and of 1/25 s.
-        let (sixty, twenty_five) = (run(7, 1.0 / 60.0, 721), run(7, 1.0 / 25.0, 301));
+        let cut = |scene: &Scene| [run(scene, 7, 1.0 / 60.0, 721), run(scene, 7, 1.0 / 25.0, 301)];
+        let [sixty, twenty_five] = cut(&wall());
+        assert_eq!(sixty, twenty_five);
+        assert_eq!(sixty.0.iter().filter(|stamp| stamp.profile == Profile::Crater).count(), 120);
+        let [sixty, twenty_five] = cut(&water());
         assert_eq!(sixty, twenty_five);
         // The last of the 288 intervals is cut by the last step that is owed.
-        assert_eq!(sixty.0.iter().filter(|stamp| stamp.profile == Profile::Crater).count(), 120);
         assert!((287..=288).contains(&sixty.1.len()));
     }
 
     #[test]
+    fn a_shot_into_water_makes_a_ring_and_no_hole_and_frames_do_not_change_when() {
+        let mut scene = water();
+        scene.wave.as_mut().unwrap().rain = None;
+        scene.shots = Some(Shots::default());
+        let [sixty, twenty_five] = [run(&scene, 7, 1.0 / 60.0, 721), run(&scene, 7, 1.0 / 25.0, 301)];
+        assert_eq!(sixty, twenty_five);
+        assert!(sixty.0.is_empty());
+        assert!((119..=120).contains(&sixty.1.len()), "{}", sixty.1.len());
+        // A post is no water: what hits it breaks it.
+        let post = scene::Obstacle { centre: [0.5, 0.5], half_extent_metres: [2.0, 2.0], corner_metres: 0.0, top: 1.0 };
+        scene.wave.as_mut().unwrap().obstacles.push(post);
+        let (presses, splashes) = run(&scene, 7, 1.0 / 60.0, 721);
+        assert!(splashes.is_empty());
+        assert_eq!(presses.iter().filter(|stamp| stamp.profile == Profile::Crater).count(), 120);
+        // The hand's are no other.
+        let mut strokes = Strokes { hand: presses, ..Strokes::default() };
+        strokes.disturb_by_hand(&scene);
+        assert!(!strokes.hand.is_empty() && strokes.splashes.is_empty());
+        scene.wave.as_mut().unwrap().obstacles.clear();
+        strokes.disturb_by_hand(&scene);
+        assert!(strokes.hand.is_empty() && strokes.splashes.len() == 120);
+    }
+
+    #[test]
     fn another_seed_is_another_run() {
-        let (a, b) = (run(1, 1.0 / 60.0, 60), run(2, 1.0 / 60.0, 60));
-        assert!(a.0.iter().all(|stamp| !b.0.contains(stamp)));
-        assert!(a.1.iter().all(|(_, impulse)| b.1.iter().all(|(_, other)| impulse != other)));
+        let [a, b] = [1, 2].map(|seed| run(&wall(), seed, 1.0 / 60.0, 60).0);
+        assert!(a.iter().all(|stamp| !b.contains(stamp)));
+        let [a, b] = [1, 2].map(|seed| run(&water(), seed, 1.0 / 60.0, 60).1);
+        assert!(a.iter().all(|(_, impulse)| b.iter().all(|(_, other)| impulse != other)));
     }
 
     #[test]
     fn every_seed_changes_something_within_eight_frames_and_nothing_in_the_first() {
         for seed in 0..500 {
-            let (presses, splashes) = run(seed, 1.0 / 60.0, 8);
-            assert!(!presses.is_empty() && !splashes.is_empty(), "seed {seed}");
-            let (presses, splashes) = run(seed, 1.0 / 60.0, 1);
-            assert!(presses.is_empty() && splashes.is_empty(), "seed {seed}");
+            for (frames, moves) in [(8, true), (1, false)] {
+                assert_eq!(!run(&wall(), seed, 1.0 / 60.0, frames).0.is_empty(), moves, "seed {seed}");
+                assert_eq!(!run(&water(), seed, 1.0 / 60.0, frames).1.is_empty(), moves, "seed {seed}");
+            }
         }
     }
 
     #[test]
     fn shots_and_drops_come_when_they_are_due() {
-        let scene = scene();
+        let scene = water();
         let lattice = Lattice::of_scene(&scene);
         let fired = |until| numbers_between(10.0, 0.5, 0.0, until).count();
         // The first at 0.05 s, which is the third frame's very time at 60 Hz; then one every tenth of a second.

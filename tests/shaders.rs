@@ -82,7 +82,7 @@ fn every_composition_parses_and_validates() {
 fn an_error_names_the_part_and_its_own_line() {
     let mut library = Library::embedded();
     library.replace("field/normals", "// one\n// two\nfn broken() -> f32 { return missing; }\n".to_owned());
-    let composition = library.compose(&["common/region", "field/normals"]).expect("both parts exist");
+    let composition = library.compose(&["common/noise", "field/normals"]).expect("both parts exist");
     let error = composition.validate().expect_err("`missing` is nowhere defined").to_string();
     assert!(error.starts_with("shaders/field/normals.wgsl:3: "), "{error}");
     assert!(library.compose(&["field/nonsense"]).is_err());

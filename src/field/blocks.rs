@@ -36,10 +36,9 @@ pub struct BlockList {
 }
 
 impl BlockList {
-    /// Room for the lists of any regions of textures of these sizes: a dispatch that covers more than half of a texture lists
-    /// nothing.
+    /// Room for the lists of any regions of textures of these sizes.
     pub fn capacity(sizes: impl Iterator<Item = [u32; 2]>, block: [u32; 2]) -> usize {
-        sizes.map(|size| grid(size, block).iter().product::<u32>() as usize / 2).sum::<usize>().max(1)
+        sizes.map(|size| grid(size, block).iter().product::<u32>() as usize).sum::<usize>().max(1)
     }
 
     /// Plans the dispatch over the blocks that regions of a texture touch; none where there are no regions.
@@ -51,7 +50,7 @@ impl BlockList {
         let all = columns * rows;
         let texels_each = u64::from(block[0]) * u64::from(block[1]);
         let whole = Dispatch { blocks: Blocks::default(), workgroups: [columns, rows], texels: u64::from(all) * texels_each };
-        if regions.iter().any(|region| 2 * region.area() > Region::all(size).area()) {
+        if regions.iter().any(|region| 8 * region.area() > 7 * Region::all(size).area()) {
             return Some(whole);
         }
         // A bit a block: in the order of rows, which is that of memory, and each once.
@@ -66,7 +65,8 @@ impl BlockList {
             }
         }
         let count = touched.iter().map(|bits| bits.count_ones()).sum::<u32>();
-        if count > all / 2 {
+        // Nearly all: an item less to read for each of them.
+        if 8 * count > 7 * all {
             return Some(whole);
         }
         let first = self.items.len() as u32;

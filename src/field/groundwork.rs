@@ -9,7 +9,7 @@ use super::cool::{self, Cool, CoolSet};
 use super::heal::{self, Heal, HealSet};
 use super::stamp::{self, Pressing, Stamp, StampImage, StampSet, Stamps};
 use super::undo::Undo;
-use super::{Dirty, Field};
+use super::{Dirty, Field, Region};
 use crate::clock::Tick;
 use crate::gpu::{Gpu, Recorder, ShaderError};
 use crate::scene::Scene;
@@ -25,6 +25,8 @@ pub struct Groundwork {
     heal: Option<(Heal, HealSet)>,
     cool: Option<(Cool, CoolSet)>,
     undo: Undo,
+    /// Whether the layers are others than this has made.
+    resumed: bool,
     traffic_bytes: u64,
 }
 
@@ -63,7 +65,7 @@ impl Groundwork {
             }
             None => None,
         };
-        Ok(Self { stamps, stamp_set, heal, cool, undo: Undo::default(), traffic_bytes: 0 })
+        Ok(Self { stamps, stamp_set, heal, cool, undo: Undo::default(), resumed: false, traffic_bytes: 0 })
     }
 
     /// Starts anew from these heights.
@@ -72,6 +74,12 @@ impl Groundwork {
             set.reset(gpu, base);
         }
         self.undo.clear();
+    }
+
+    /// The layers have been overwritten by those of a saved state: nothing is known of what is healed, and nothing can be taken back.
+    pub fn resume(&mut self) {
+        self.undo.clear();
+        self.resumed = true;
     }
 
     /// Builds the passes anew from the device's present shaders.
@@ -203,6 +211,10 @@ impl Groundwork {
             let mut next = elapsed(tick.previous_seconds, set.step_seconds());
             // What was put back closes like what is pressed.
             set.open_regions(&dirty.regions(field.size), next);
+            // To heal what is healed changes nothing.
+            if std::mem::take(&mut self.resumed) {
+                set.open_regions(&[Region::all(field.size)], next);
+            }
             for (part, (_, due)) in due.iter().enumerate() {
                 set.open(self.stamp_set.tiles(pressing, part), next);
                 if let Due::Heal(number) = due {

@@ -17,9 +17,11 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 11] = [
+pub const EMBEDDED: [(&str, &str); 13] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
+    ("explosions", include_str!("../../scenes/explosions.toml")),
+    ("snow", include_str!("../../scenes/snow.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
     ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
     ("fur", include_str!("../../scenes/fur.toml")),

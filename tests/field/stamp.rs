@@ -2,15 +2,20 @@
 
 use std::time::Instant;
 
+use rilievo::camera::Camera;
+use rilievo::clock::Tick;
 use rilievo::field::bins::BinError;
 use rilievo::field::material::Marks;
 use rilievo::field::stamp::{Blend, CRATER_RIM, ImageForm, Profile, Stamp, StampImage, StampSet, Stamps};
 use rilievo::field::wave::Waves;
 use rilievo::field::{Dirty, Field};
+use rilievo::frame::{Frame, FrameInput, Start};
 use rilievo::gpu::{Gpu, Recorder};
+use rilievo::modes::capture::{PICTURE_FORMAT, Picture};
 use rilievo::reference::stamp::{self, Layers, from_segment};
-use rilievo::scene::{self, Addressing, Boundary};
-use rilievo::stroke::{Random, Stream, stress_discs};
+use rilievo::scene::{self, Addressing, Boundary, Scene};
+use rilievo::stroke::{Random, Stream, Strokes, stress_discs};
+use rilievo::surface::Shows;
 
 use crate::support::gpu::{gpu, own_gpu, read, run};
 use crate::support::tolerances::*;
@@ -125,7 +130,9 @@ fn compare(wall: &Wall, expected: &Layers, stamps: &[Stamp]) -> (f64, f64) {
         apart += usize::from(levels != [0.0; 4]);
     }
     // A level is decided otherwise where rounding meets a half, which is rare.
-    assert!(apart <= 2 + stamps.len() * relief.len() / 2000, "{apart} texels of {} differ by a level", relief.len());
+    // After a segment that covers nearly all, what is left to cover is a quotient of small numbers.
+    let rare: usize = stamps.iter().map(|stamp| relief.len() / if stamp.joins == [0.0; 2] { 2000 } else { 50 }).sum();
+    assert!(apart <= 2 + rare, "{apart} texels of {} differ by a level", relief.len());
     worst
 }
 
@@ -308,7 +315,7 @@ fn the_volume_of_a_capsule_is_that_of_its_body_and_its_two_ends() {
 #[test]
 fn a_chain_of_segments_presses_what_one_sweep_would() {
     let size = [160, 120];
-    for (profile, pieces) in [(Profile::Bump, 3), (Profile::Rut, 25), (Profile::Crater, 60)] {
+    for (profile, pieces) in [(Profile::Bump, 3), (Profile::Rut, 25), (Profile::Crater, 15)] {
         let whole = Stamp {
             centre: [20.3, 30.7],
             span: [110.0, 55.0],
@@ -539,4 +546,36 @@ fn a_crater_blackens_its_surroundings_and_bares_its_inside() {
     assert_eq!(at(0.0).bare, 255);
     assert_eq!(at(CRATER_RIM + 0.1).bare, 0);
     assert!(at(CRATER_RIM + 0.1).soot > 50, "soot beyond the rim: {:?}", at(CRATER_RIM + 0.1));
+}
+
+#[test]
+fn ten_thousand_small_stamps_cost_what_they_touch_and_not_the_field() {
+    let Some(gpu) = gpu() else { return };
+    let camera = Camera::at(&scene::Camera::default(), 0.0);
+    let bytes = |side: u32, count: u32, radius: f32| {
+        let mut wall = Scene::default();
+        wall.field = scene::FieldSettings { size: [side; 2], addressing: Addressing::Wrap };
+        let heights = vec![0.5; (side * side) as usize];
+        let mut frame = Frame::new(gpu, &Start::new(&wall, heights, None), [8, 8], PICTURE_FORMAT).expect("its shaders compile");
+        let picture = Picture::new(gpu, [8, 8]);
+        let mut moved = [0; 2];
+        for (number, moved) in (0..).zip(&mut moved) {
+            let tick = Tick::default();
+            let presses = if number == 0 { Vec::new() } else { stress_discs(0, number, count, radius, [side; 2]).collect() };
+            let strokes = Strokes { presses, ..Strokes::default() };
+            let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
+            picture.draw(gpu, &mut frame, &input).expect("they fit");
+            *moved = frame.field_traffic_bytes();
+        }
+        // Against a frame in which all of it changed.
+        (moved[1], moved[1] as f64 / moved[0] as f64)
+    };
+    for radius in [1.0, 2.0, 4.0, 8.0, 16.0] {
+        let (moved, share) = bytes(2048, 10_000, radius);
+        println!("10,000 stamps of radius {radius} at 2048²: {:.1} MB, {share:.2} of a whole frame's", moved as f64 / 1e6);
+    }
+    // The same stamps on a field of four times the texels.
+    let [small, large] = [1024, 2048].map(|side| bytes(side, 1000, 2.0));
+    println!("1,000 of radius 2: {:.2} MB at 1024², {:.2} MB at 2048²", small.0 as f64 / 1e6, large.0 as f64 / 1e6);
+    assert!(large.0 as f64 <= STAMP_COST_GROWTH * small.0 as f64 && large.1 < 0.12, "{small:?}, {large:?}");
 }

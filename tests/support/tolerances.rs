@@ -46,6 +46,9 @@ pub const STAMP_MATERIAL: f64 = 1.0;
 /// 2⁻²⁴ of a height of 0.5, and of where the piece begins, 2⁻²⁴ · 128 texels at a slope of a tenth.
 pub const STAMP_CHAIN_EACH: f64 = 1.5e-6;
 
+/// What the same stamps may cost more on a field of four times the texels: on the smaller one a few more share a tile.
+pub const STAMP_COST_GROWTH: f64 = 1.35;
+
 /// Healing against its reference, in heights: a product and two sums.
 pub const HEAL_STEP: f64 = 3.0 * ULP;
 
