@@ -26,6 +26,11 @@ pub enum Stroke {
     Press(Stamp),
     /// An impulse upon the water.
     Splash(Impulse),
+    /// What follows belongs to the hand's stroke of this number: all that one press of the button does until it is released. Numbers
+    /// rise.
+    Number(u64),
+    /// The hand's last stroke is taken back, before anything is pressed.
+    Undo,
 }
 
 /// All that is done to the field in one frame.
@@ -37,8 +42,7 @@ pub struct Strokes {
     pub splashes: Vec<(u32, Impulse)>,
     /// The hand's stamps, pressed after the scene's: these can be undone.
     pub hand: Vec<Stamp>,
-    /// Which stroke of the hand they belong to: all that one press of the button does until it is released has one number, and
-    /// numbers rise.
+    /// Which stroke of the hand they belong to: see [`Stroke::Number`].
     pub stroke_number: u64,
     /// How many of the hand's last strokes are taken back, before anything is pressed.
     pub undo: u32,
@@ -50,7 +54,15 @@ impl Strokes {
         match stroke {
             Stroke::Press(stamp) => self.hand.push(stamp),
             Stroke::Splash(impulse) => self.splashes.push((0, impulse)),
+            Stroke::Number(number) => self.stroke_number = number,
+            Stroke::Undo => self.undo += 1,
         }
+    }
+
+    /// Adds all that a hand did to a scene since the last frame, and what that disturbs.
+    pub fn add_hand(&mut self, scene: &Scene, strokes: &[Stroke]) {
+        strokes.iter().for_each(|stroke| self.push(*stroke));
+        self.disturb_by_hand(scene);
     }
 
     /// What the scene itself does in the frame: its rain, its shots, whatever else it presses.

@@ -74,7 +74,7 @@ impl BlockList {
             let mut left = bits;
             while left != 0 {
                 let index = 64 * word + left.trailing_zeros();
-                self.items.push(index % columns | (index / columns) << 16);
+                self.items.push((index % columns) | ((index / columns) << 16));
                 left &= left - 1;
             }
         }

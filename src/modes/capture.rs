@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::headless::Headless;
 use super::script::Script;
-use super::{ModeError, progress, state, wait_for, wait_for_gpu};
+use super::{ModeError, check_health, progress, state, wait_for, wait_for_gpu};
 use crate::cli::{CaptureOptions, Channel, Verbosity};
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, Readback};
@@ -55,6 +55,11 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
         progress.inc(1);
     }
     progress.finish_and_clear();
+    for (name, behind_seconds) in check_health(&gpu, &mut frame)? {
+        if behind_seconds > 0.0 {
+            log::warn!("{name} fell {behind_seconds:.3} s behind: a frame would have taken too many substeps");
+        }
+    }
     if let Some(path) = &options.save_state {
         state::save(&gpu, &frame, script.clock(), path)?;
     }

@@ -14,7 +14,7 @@ pub mod stress;
 use std::time::{Duration, Instant};
 
 use crate::cli::CommonOptions;
-use crate::frame::{FrameError, Start};
+use crate::frame::{Frame, FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
 use crate::io::atomic::WriteError;
@@ -55,6 +55,14 @@ pub enum ModeError {
     /// The picture did not arrive.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
+    /// A source has stopped.
+    #[error("{name} has stopped: {sentence}")]
+    Halted {
+        /// The source.
+        name: &'static str,
+        /// Why, and what to do about it.
+        sentence: String,
+    },
     /// The device failed on the way.
     #[error("the graphics device failed: {0}; run it again, or choose another with --adapter")]
     Device(String),
@@ -85,6 +93,25 @@ pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError>
 pub fn start(loaded: &LoadedScene) -> Start {
     let (heights, colours) = loaded.layers();
     Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_images(loaded.images.clone())
+}
+
+/// How the sources of a frame fare, whose GPU is idle.
+///
+/// # Errors
+///
+/// One has stopped: what it would show from here on is not what it simulates.
+pub fn check_health(gpu: &Gpu, frame: &mut Frame) -> Result<Vec<(&'static str, f64)>, ModeError> {
+    // The first call asks, the second has the answer.
+    frame.health(gpu);
+    wait_for_gpu(gpu)?;
+    frame
+        .health(gpu)
+        .into_iter()
+        .map(|(name, health)| match health.halted {
+            Some(sentence) => Err(ModeError::Halted { name, sentence }),
+            None => Ok((name, health.behind_seconds)),
+        })
+        .collect()
 }
 
 /// Waits for bytes on their way from the GPU.

@@ -6,7 +6,7 @@ use super::{ModeError, state};
 use crate::camera::Camera;
 use crate::cli::ResumeOptions;
 use crate::clock::{Clock, Pace, Tick};
-use crate::frame::{Frame, FrameInput, Start};
+use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::Gpu;
 use crate::io::journal::{self, Entry, Journal, JournalError};
 use crate::io::scene_file::SceneOverrides;
@@ -77,9 +77,9 @@ impl Replay {
         self.entries.len()
     }
 
-    /// The time that the next frame shows, seconds; none after the last.
-    pub fn next_seconds(&self) -> Option<f64> {
-        self.entries.as_slice().first().map(|entry| entry.tick.time_seconds)
+    /// The time that the next frame spans, seconds; none after the last.
+    pub fn next_span_seconds(&self) -> Option<f64> {
+        self.entries.as_slice().first().map(|entry| entry.tick.time_seconds - entry.tick.previous_seconds)
     }
 
     /// The next frame, after the frame's scene has become what it was then; none after the last.
@@ -87,7 +87,7 @@ impl Replay {
     /// # Errors
     ///
     /// A scene of the journal cannot be shown on this adapter.
-    pub fn next(&mut self, gpu: &Gpu, frame: &mut Frame, start: &mut Start) -> Result<Option<Moment>, ModeError> {
+    pub fn next(&mut self, gpu: &Gpu, frame: &mut Frame, start: &mut Start) -> Result<Option<Moment>, FrameError> {
         let Some(entry) = self.entries.next() else { return Ok(None) };
         if let Some(scene) = entry.scene {
             let mut scene = *scene;
@@ -103,7 +103,7 @@ impl Replay {
         }
         let scene = frame.scene();
         let mut strokes = Strokes::of_scene(scene, scene.seed, &entry.tick);
-        entry.strokes.into_iter().for_each(|stroke| strokes.push(stroke));
+        strokes.add_hand(scene, &entry.strokes);
         let recorded = self.camera.filter(|_| !self.looks.moves_camera());
         let camera = recorded.unwrap_or_else(|| Camera::at(&scene.camera, entry.tick.time_seconds));
         Ok(Some(Moment { tick: entry.tick, strokes, camera }))
@@ -122,11 +122,7 @@ impl Script {
             Resumed::No => {}
             Resumed::State(state, path) => script.solo.clock = state::restore(gpu, frame, *state, &path)?,
             Resumed::Journal(replay, path) => {
-                let there = replay.frames_left() as u64;
-                if frames > there {
-                    let problem = format!("has {there} frames, and this run asks for {frames}: ask for fewer with --frames");
-                    return Err(JournalError::Unfit { path, problem }.into());
-                }
+                check_length(replay.frames_left() as u64, frames, &path)?;
                 script.replay = Some(*replay);
             }
         }
@@ -197,6 +193,19 @@ pub fn resumed(
         Some(path) => Ok(Resumed::State(Box::new(state::read(path, scene)?), path.clone())),
         None => Ok(Resumed::No),
     }
+}
+
+/// Checks that a journal has the frames that a run asks of it.
+///
+/// # Errors
+///
+/// It has fewer.
+pub fn check_length(there: u64, asked: u64, path: &Path) -> Result<(), JournalError> {
+    if asked <= there {
+        return Ok(());
+    }
+    let problem = format!("has {there} frames, and this run asks for {asked}: ask for fewer with --frames");
+    Err(JournalError::Unfit { path: path.to_owned(), problem })
 }
 
 fn check_heights(journal: &Journal, heights: &[f32], path: &Path) -> Result<(), JournalError> {

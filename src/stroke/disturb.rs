@@ -32,7 +32,7 @@ impl Strokes {
     }
 
     /// The same for what the hand did, before the frame's first step.
-    pub fn disturb_by_hand(&mut self, scene: &Scene) {
+    pub(super) fn disturb_by_hand(&mut self, scene: &Scene) {
         let lattice = Lattice::of_scene(scene);
         if let Some(wave) = &scene.wave {
             let (fallen, pressed) = self.hand.iter().partition(|stamp| falls_into_water(stamp, wave, scene, &lattice));

@@ -85,7 +85,7 @@ impl Hit<'_> {
 
     /// Something small beside the hole, of so many rims and depths.
     fn beside(&mut self, centre: [f32; 2], rims: f32, depths: f32) -> Stamp {
-        let phase = self.pick(0.0, 6.28);
+        let phase = self.random.between(0.0, TAU) as f32;
         Stamp {
             at_seconds: self.hole.at_seconds,
             centre,

@@ -191,15 +191,15 @@ mod tests {
         let size = lattice.size.map(|side| side as f32);
         let stamps = presses_between(&scene, 5, &lattice, 0.0, 8.0);
         for pair in stamps.chunks(2).collect::<Vec<_>>().windows(2) {
-            for side in 0..2 {
-                let (before, now) = (&pair[0][side], &pair[1][side]);
-                for axis in 0..2 {
+            for (before, now) in pair[0].iter().zip(pair[1]) {
+                let ends = before.centre.iter().zip(before.span).zip(now.centre).zip(size);
+                for (((centre, span), next), size) in ends {
                     // In the image of the field where both are near.
-                    let gap = before.centre[axis] + before.span[axis] - now.centre[axis];
-                    let gap = gap - (gap / size[axis]).round() * size[axis];
+                    let gap = centre + span - next;
+                    let gap = gap - (gap / size).round() * size;
                     assert!(gap.abs() < 1e-2, "{gap}");
-                    assert!((before.span[axis] + now.joins[axis]).abs() < 1e-2);
                 }
+                assert!(before.span.iter().zip(now.joins).all(|(span, joins)| (span + joins).abs() < 1e-2));
             }
         }
     }

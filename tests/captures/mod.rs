@@ -4,6 +4,7 @@ mod determinism;
 mod flight;
 mod goldens;
 mod positions;
+mod resumed;
 mod techniques;
 mod views;
 

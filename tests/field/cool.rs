@@ -17,7 +17,8 @@ fn the_pass_equals_the_reference() {
     let cool = Cool::new(gpu).expect("the shader compiles");
     // Every heat there is, beside other marks.
     let size = [41, 25];
-    let bits: Vec<u32> = (0..size[0] * size[1]).map(|index| (index.min(1023) << 22) | (index * 2_654_435 & 0x3f_ffff)).collect();
+    let bits: Vec<u32> =
+        (0..size[0] * size[1]).map(|index| (index.min(1023) << 22) | ((index * 2_654_435) & 0x3f_ffff)).collect();
     for seconds in [0.0, 3.21, 777.7] {
         let field = Field::new(gpu, size, Addressing::Clamp, false);
         let mut set = cool.bind(gpu, &field);

@@ -553,8 +553,8 @@ fn ten_thousand_small_stamps_cost_what_they_touch_and_not_the_field() {
     let Some(gpu) = gpu() else { return };
     let camera = Camera::at(&scene::Camera::default(), 0.0);
     let bytes = |side: u32, count: u32, radius: f32| {
-        let mut wall = Scene::default();
-        wall.field = scene::FieldSettings { size: [side; 2], addressing: Addressing::Wrap };
+        let field = scene::FieldSettings { size: [side; 2], addressing: Addressing::Wrap };
+        let wall = Scene { field, ..Scene::default() };
         let heights = vec![0.5; (side * side) as usize];
         let mut frame = Frame::new(gpu, &Start::new(&wall, heights, None), [8, 8], PICTURE_FORMAT).expect("its shaders compile");
         let picture = Picture::new(gpu, [8, 8]);

@@ -29,9 +29,11 @@ use self::input::{Action, Grip};
 use self::panel::PANEL_WIDTH;
 use self::screen::{Acquired, Screen};
 use self::session::{DT_SECONDS, Pacing, Session};
-use super::{ModeError, capture, start};
+use super::{ModeError, capture, script, start};
 use crate::cli::LiveOptions;
 use crate::frame::{FrameInput, check_limits};
+use crate::io::atomic;
+use crate::io::journal::Journal;
 use crate::io::scene_file::{self, LoadedScene, SceneOverrides};
 use crate::stroke::Strokes;
 
@@ -42,16 +44,27 @@ use crate::stroke::Strokes;
 /// The scene or its image is unfit, there is no display, no adapter that can draw to it, the device fails, the window is closed
 /// before a script's last frame, or that frame cannot be written.
 pub fn run(options: &LiveOptions) -> Result<(), ModeError> {
-    let loaded = scene_file::load(&options.common.scene, &options.common.overrides(), framed_size(options))?;
+    let journal = script::journal(&options.resume)?;
+    if let (Some(journal), Some(frames), Some(path)) = (&journal, options.frames, &options.resume.replay) {
+        script::check_length(journal.entries.len() as u64, u64::from(frames), path)?;
+    }
+    let overrides = options.common.overrides();
+    let loaded = match &journal {
+        Some(journal) => scene_file::load_whole(journal.scene.clone(), &overrides, framed_size(options))?,
+        None => scene_file::load(&options.common.scene, &overrides, framed_size(options))?,
+    };
     let no_display = |error: EventLoopError| {
         log::debug!("{error}");
         let remedy = "set DISPLAY or WAYLAND_DISPLAY, or use `rilievo capture --out DIR`, which needs none";
         ModeError::Window(format!("there is no display to open a window on: {remedy}"))
     };
     let event_loop = EventLoop::new().map_err(no_display)?;
-    let mut live = Live { options, loaded: Some(loaded), shown: 0, open: None, outcome: Ok(()) };
+    let mut live = Live { options, loaded: Some((loaded, journal)), shown: 0, open: None, outcome: Ok(()) };
     event_loop.run_app(&mut live).map_err(no_display)?;
     live.outcome?;
+    if let Some(open) = &mut live.open {
+        open.session.close(options.save_state.as_deref())?;
+    }
     match (options.frames, &options.out, live.open) {
         (Some(wanted), Some(out), Some(open)) if live.shown >= wanted => write_last_frame(open.session, options, wanted, out),
         (Some(wanted), ..) => Err(ModeError::Window(format!(
@@ -81,7 +94,7 @@ fn write_last_frame(mut session: Session, options: &LiveOptions, frames: u32, ou
 struct Live<'a> {
     options: &'a LiveOptions,
     /// Until the window is open.
-    loaded: Option<LoadedScene>,
+    loaded: Option<(LoadedScene, Option<Journal>)>,
     /// How many frames there were.
     shown: u32,
     open: Option<Open>,
@@ -106,8 +119,8 @@ struct Open {
 
 impl ApplicationHandler for Live<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if let Some(loaded) = self.loaded.take() {
-            match Open::new(event_loop, self.options, &loaded) {
+        if let Some((loaded, journal)) = self.loaded.take() {
+            match Open::new(event_loop, self.options, &loaded, journal) {
                 Ok(open) => self.open = Some(open),
                 Err(error) => self.end(event_loop, Err(error)),
             }
@@ -154,7 +167,12 @@ impl Live<'_> {
 }
 
 impl Open {
-    fn new(event_loop: &ActiveEventLoop, options: &LiveOptions, loaded: &LoadedScene) -> Result<Self, ModeError> {
+    fn new(
+        event_loop: &ActiveEventLoop,
+        options: &LiveOptions,
+        loaded: &LoadedScene,
+        journal: Option<Journal>,
+    ) -> Result<Self, ModeError> {
         let [width, height] = options.common.image_size;
         let attributes = WindowAttributes::default().with_title("Rilievo").with_inner_size(PhysicalSize::new(width, height));
         let window = event_loop.create_window(attributes).map_err(|error| {
@@ -165,8 +183,18 @@ impl Open {
         check_limits(&gpu, &loaded.scene, options.common.image_size)?;
         let gui = Gui::new(&gpu, window.clone(), screen.format(), panel::set_style);
         let pacing = if options.frames.is_some() { Pacing::Fixed } else { Pacing::Realtime };
-        let session = Session::new(gpu, start(loaded), pacing, screen.size(), screen.format())?;
+        let start = start(loaded);
+        let overrides = options.common.overrides();
+        let resumed = script::resumed(&options.resume, journal, overrides, &start.scene, &start.heights)?;
+        for path in options.record.iter().chain(&options.save_state) {
+            atomic::check(path)?;
+        }
+        let session = Session::new(gpu, start, pacing, screen.size(), screen.format())?;
         let mut session = session.with_scenes(scenes(&options.common.scene, loaded), scene_loader(options));
+        session.resume(resumed)?;
+        if let Some(path) = &options.record {
+            session.record_to(path)?;
+        }
         session.panel.display = options.common.display.display(&loaded.scene);
         let now = Instant::now();
         Ok(Self {

@@ -43,6 +43,8 @@ pub struct Readings {
     pub clipped_texels: Option<u64>,
     /// Simulation steps in the last frame.
     pub steps: u32,
+    /// Simulated time that sources gave up since their start, the most of any, seconds.
+    pub behind_seconds: f64,
     frame_seconds: Option<f64>,
     passes: Vec<Pass>,
 }
@@ -131,6 +133,10 @@ pub fn show(ui: &mut Ui, readings: &Readings) {
     egui::Grid::new("figures").num_columns(2).spacing([12.0, 2.0]).show(ui, |ui| {
         figure(ui, "Frame", format!("{:.1} ms", readings.frame_seconds.unwrap_or(0.0) * 1e3), "From one picture to the next");
         figure(ui, "Steps", format!("{} a frame", readings.steps), "Simulation steps in the last frame");
+        if readings.behind_seconds > 0.0 {
+            let tip = "Simulated time that was given up, because a frame would have taken too many substeps";
+            figure(ui, "Behind", format!("{:.2} s", readings.behind_seconds), tip);
+        }
         figure(ui, "Picture", format!("{} × {} pixels", readings.image_size[0], readings.image_size[1]), "Size of the window");
         figure(ui, "Field", format!("{width} × {height} texels"), "Size of the height field");
         let bytes = format!("{:.1} B a texel", readings.field_bytes_per_texel);

@@ -13,10 +13,11 @@ use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
-use crate::io::{png_file, shader_folder};
-use crate::modes::ModeError;
+use crate::io::{journal, png_file, shader_folder};
 use crate::modes::capture::Picture;
-use crate::stroke::Strokes;
+use crate::modes::script::{Moment, Replay, Resumed};
+use crate::modes::{ModeError, state};
+use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
 
 /// Time from frame to frame where it is fixed, and of a single step, seconds.
@@ -67,8 +68,20 @@ pub struct Session {
     /// How many of its strokes are to be taken back.
     undo: u32,
     single_step: bool,
+    /// Whether the field went back to its start since the last frame.
+    restarted: bool,
+    /// What is replayed instead of what the clock and the hand say.
+    replay: Option<Replay>,
+    /// Time that passed since the frame of the journal that is shown, seconds.
+    since_replayed_seconds: f64,
+    /// Where everything that is done is written down.
+    journal: Option<journal::Writer>,
+    /// The sentence of the source that has stopped, if one has.
+    halted: Option<String>,
     /// Where the last frame was seen from: what a click upon it means.
     shown: Camera,
+    /// The same as if no panel had stood before it.
+    centred: Camera,
     /// What the last frame spanned.
     tick: Tick,
 }
@@ -113,9 +126,54 @@ impl Session {
             hand: Hand::default(),
             undo: 0,
             single_step: false,
+            restarted: false,
+            replay: None,
+            since_replayed_seconds: 0.0,
+            journal: None,
+            halted: None,
+            centred: shown,
             shown,
             tick: Tick::default(),
         })
+    }
+
+    /// Goes on from a saved state, or as a journal says.
+    ///
+    /// # Errors
+    ///
+    /// The state is unfit.
+    pub fn resume(&mut self, resumed: Resumed) -> Result<(), ModeError> {
+        match resumed {
+            Resumed::No => {}
+            Resumed::State(saved, path) => self.clock = state::restore(&self.gpu, &mut self.frame, *saved, &path)?,
+            Resumed::Journal(replay, _) => self.replay = Some(*replay),
+        }
+        Ok(())
+    }
+
+    /// Writes down everything that is done from now on.
+    ///
+    /// # Errors
+    ///
+    /// No file can be made there.
+    pub fn record_to(&mut self, path: &Path) -> Result<(), ModeError> {
+        self.journal = Some(journal::Writer::create(path, self.frame.scene(), &self.start.heights)?);
+        Ok(())
+    }
+
+    /// Ends the journal, and saves the state where it is wanted.
+    ///
+    /// # Errors
+    ///
+    /// The device was lost, or a file cannot be written.
+    pub fn close(&mut self, save_state: Option<&Path>) -> Result<(), ModeError> {
+        if let Some(journal) = self.journal.take() {
+            journal.finish()?;
+        }
+        if let Some(path) = save_state {
+            state::save(&self.gpu, &self.frame, &self.clock, path)?;
+        }
+        Ok(())
     }
 
     /// Offers other scenes, and knows how to make their starts.
@@ -133,7 +191,7 @@ impl Session {
 
     /// Camera and time of the last frame, for a picture of it that no panel covers.
     pub fn last(&self) -> (Camera, Tick) {
-        (self.rig.centred(self.tick.time_seconds), self.tick)
+        (self.centred, self.tick)
     }
 
     /// Saves what the window shows, without the panel, as a PNG in the working directory, and says where.
@@ -175,6 +233,9 @@ impl Session {
 
     /// Does what a key or the panel asks for. What concerns the window alone is not for here.
     pub fn act(&mut self, action: Action) {
+        if matches!(action, Action::Reset | Action::NewSeed | Action::Scene(_) | Action::Step) {
+            self.replay = None;
+        }
         match action {
             Action::TogglePause => self.panel.paused = !self.panel.paused,
             Action::Step => {
@@ -219,6 +280,9 @@ impl Session {
 
     /// Back to the start of the scene, with what the panel changed.
     fn restart(&mut self) {
+        self.apply_scene();
+        self.restarted = true;
+        self.halted = None;
         self.start.take_scene(&self.panel.scene);
         self.frame.reset(&self.gpu, &self.start);
         self.clock = Clock::new(self.frame.step_seconds());
@@ -244,6 +308,13 @@ impl Session {
         });
         match made {
             Ok((start, frame)) => {
+                if let Some(journal) = self.journal.take() {
+                    match journal.finish() {
+                        Ok(()) => log::info!("the journal ends here: it holds one scene"),
+                        Err(error) => log::error!("{error}"),
+                    }
+                }
+                self.halted = None;
                 self.frame = frame;
                 self.panel.choose(start.scene.clone());
                 self.rig = Rig::new(start.scene.camera.clone());
@@ -299,6 +370,7 @@ impl Session {
         let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
         lives
             || hand
+            || self.replay.is_some()
             || self.picker.waits()
             || self.single_step
             || !self.taps.is_empty()
@@ -309,6 +381,11 @@ impl Session {
     /// Takes over what the panel changed in the scene.
     pub fn apply_scene(&mut self) {
         if self.panel.scene == *self.frame.scene() {
+            return;
+        }
+        if self.replay.is_some() {
+            // The journal says what the scene is.
+            self.panel.scene = self.frame.scene().clone();
             return;
         }
         // Each control keeps to its range, but what is stable depends on several at once.
@@ -340,23 +417,70 @@ impl Session {
     ) -> Result<(), FrameError> {
         self.panel.pass_time(elapsed_seconds);
         let elapsed_seconds = elapsed_seconds.min(LONGEST_FRAME_SECONDS);
+        if let Some(moment) = self.replayed(elapsed_seconds)? {
+            (self.tick, self.shown, self.centred) = (moment.tick, moment.camera, moment.camera);
+            return self.frame.record(&self.gpu, encoder, &moment.input(self.panel.display), target);
+        }
         let hand_seconds = if self.pacing == Pacing::Fixed { DT_SECONDS } else { elapsed_seconds };
         self.rig.fly(self.flight.movement(), hand_seconds);
         let touched = self.touched(hand_seconds);
         self.tick = self.tick(elapsed_seconds);
         let mut strokes = Strokes::of_scene(&self.panel.scene, self.panel.scene.seed, &self.tick);
-        for lattice in touched {
-            let done = self.hand.act(&self.panel.brush, &self.panel.scene, lattice, self.tick.time_seconds);
-            done.into_iter().for_each(|stroke| strokes.push(stroke));
-        }
-        self.hand.due(self.tick.time_seconds).into_iter().for_each(|stroke| strokes.push(stroke));
-        strokes.disturb_by_hand(&self.panel.scene);
-        strokes.stroke_number = self.hand.stroke_number();
-        strokes.undo = std::mem::take(&mut self.undo);
+        let hand = self.strokes_of_hand(&touched);
+        self.centred = self.rig.centred(self.tick.time_seconds);
+        self.write_down(&hand);
+        strokes.add_hand(&self.panel.scene, &hand);
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
         self.shown = self.rig.camera(self.tick.time_seconds);
         let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, display: self.panel.display };
         self.frame.record(&self.gpu, encoder, &input, target)
+    }
+
+    /// The frame that the journal has next, if one is replayed: the last one still, while it is not yet due.
+    fn replayed(&mut self, elapsed_seconds: f64) -> Result<Option<Moment>, FrameError> {
+        let Some(replay) = &mut self.replay else { return Ok(None) };
+        self.taps.clear();
+        let Some(spanned) = replay.next_span_seconds() else {
+            self.replay = None;
+            self.panel.paused = true;
+            self.panel.say("The journal ends here: from now on it is yours");
+            return Ok(None);
+        };
+        self.since_replayed_seconds += elapsed_seconds;
+        if self.pacing == Pacing::Realtime && (self.panel.paused || self.since_replayed_seconds < spanned) {
+            let tick = Tick { previous_seconds: self.tick.time_seconds, owed: Default::default(), ..self.tick };
+            return Ok(Some(Moment { tick, strokes: Strokes::default(), camera: self.shown }));
+        }
+        self.since_replayed_seconds = (self.since_replayed_seconds - spanned).min(LONGEST_FRAME_SECONDS);
+        let moment = replay.next(&self.gpu, &mut self.frame, &mut self.start)?;
+        if let Some(moment) = &moment {
+            self.clock.follow(&moment.tick);
+            self.panel.scene = self.frame.scene().clone();
+        }
+        Ok(moment)
+    }
+
+    /// Writes down what this frame does.
+    fn write_down(&mut self, hand: &[Stroke]) {
+        let restarted = std::mem::take(&mut self.restarted);
+        let Some(journal) = &mut self.journal else { return };
+        if let Err(error) = journal.add(&self.tick, hand, restarted, self.frame.scene(), &self.centred) {
+            self.journal = None;
+            self.panel.say_error(&format!("The journal is lost: {error}"));
+        }
+    }
+
+    /// Notes how the sources fare; one that has stopped says so once.
+    fn note_health(&mut self) {
+        let health = self.frame.health(&self.gpu);
+        self.readings.behind_seconds = health.iter().map(|(_, health)| health.behind_seconds).fold(0.0, f64::max);
+        let halted = health.into_iter().find_map(|(name, health)| Some(format!("{name} has stopped: {}", health.halted?)));
+        if halted != self.halted {
+            if let Some(sentence) = &halted {
+                self.panel.say_error(sentence);
+            }
+            self.halted = halted;
+        }
     }
 
     /// Submits what [`Session::record`] and others recorded, and notes what the frame cost: by the wall clock `frame_seconds`, where
@@ -367,6 +491,7 @@ impl Session {
             self.readings.note_passes(&times);
         }
         self.note_clipped();
+        self.note_health();
         if let Some(seconds) = frame_seconds {
             self.readings.note_frame(seconds);
         }
@@ -408,6 +533,20 @@ impl Session {
             (false, Pacing::Realtime) => Pace::Realtime { elapsed_seconds },
             (false, Pacing::Fixed) => Pace::Fixed { dt_seconds: DT_SECONDS },
         })
+    }
+
+    /// What the hand does in this frame, where the brush touched the surface: first of all it takes back.
+    fn strokes_of_hand(&mut self, touched: &[[f32; 2]]) -> Vec<Stroke> {
+        let now_seconds = self.tick.time_seconds;
+        let mut strokes = vec![Stroke::Undo; std::mem::take(&mut self.undo) as usize];
+        let mut done: Vec<_> =
+            touched.iter().flat_map(|&at| self.hand.act(&self.panel.brush, &self.panel.scene, at, now_seconds)).collect();
+        done.extend(self.hand.due(now_seconds));
+        if !done.is_empty() {
+            strokes.push(Stroke::Number(self.hand.stroke_number()));
+            strokes.append(&mut done);
+        }
+        strokes
     }
 
     /// Where the brush touched the surface since the last frame. It works while paused too: then its strokes are all that changes.

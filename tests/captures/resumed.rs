@@ -1,0 +1,115 @@
+//! Runs that go on from a saved state, or as a journal says: what they must match to the byte, and what they must refuse.
+
+use std::path::Path;
+
+use super::{capture, rilievo};
+
+const SMALL: &[&str] = &["--size", "96x64", "--field", "64", "--channels", "color,position,normal,height,steps"];
+
+/// Scenes in which something moves by a state of its own.
+const LIVING: [&str; 2] = ["ripples", "bullet-wall"];
+
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    SMALL.iter().chain(more).copied().collect()
+}
+
+fn path_in(directory: &tempfile::TempDir, name: &str) -> String {
+    directory.path().join(name).to_str().expect("temporary directories have plain names").to_owned()
+}
+
+fn assert_same_frames(a: (&Path, u32), b: (&Path, u32), count: u32, what: &str) {
+    for frame in 0..count {
+        for [prefix, ending] in [["frame", "png"], ["frame", "exr"], ["field", "exr"]] {
+            let read = |(folder, first): (&Path, u32)| {
+                let name = format!("{prefix}_{:05}.{ending}", first + frame);
+                std::fs::read(folder.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+            };
+            assert!(read(a) == read(b), "{what}: {prefix}.{ending} of frame {frame} differs");
+        }
+    }
+}
+
+/// A run that must fail with exit code 1, and in one sentence that says this. It leaves nothing.
+fn refused(arguments: &[&str], says: &str) {
+    let directory = tempfile::tempdir().expect("there is a temporary directory");
+    let out = path_in(&directory, "out");
+    let mut all = vec!["capture", "--out", &out];
+    all.extend(arguments);
+    let output = rilievo(&all);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains(says) && said.trim_end().lines().count() == 1, "{said}");
+    assert!(!Path::new(&out).exists(), "{said}");
+}
+
+#[test]
+fn a_resumed_run_goes_on_to_the_byte() {
+    for scene in LIVING {
+        let directory = tempfile::tempdir().expect("there is a temporary directory");
+        let [whole, first, second] = ["whole", "first", "second"].map(|name| directory.path().join(name));
+        let [state, later] = ["state", "later"].map(|name| path_in(&directory, name));
+        let dt = ["--scene", scene, "--dt", "0.0213"];
+        capture(&whole, &with(&[&dt[..], &["--frames", "11"]].concat()));
+        capture(&first, &with(&[&dt[..], &["--frames", "1", "--warmup", "4", "--save-state", &state]].concat()));
+        capture(&second, &with(&[&dt[..], &["--frames", "3", "--load-state", &state, "--save-state", &later]].concat()));
+        assert_same_frames((&second, 0), (&whole, 5), 3, scene);
+        // And once more, from where that one ended.
+        capture(&second, &with(&[&dt[..], &["--frames", "2", "--warmup", "1", "--load-state", &later]].concat()));
+        assert_same_frames((&second, 0), (&whole, 9), 2, scene);
+    }
+}
+
+#[test]
+fn a_state_of_another_run_is_refused() {
+    let directory = tempfile::tempdir().expect("there is a temporary directory");
+    let state = path_in(&directory, "state");
+    let out = directory.path().join("out");
+    capture(&out, &with(&["--scene", "ripples", "--save-state", &state]));
+    let load = |more: &[&'static str], says: &str| {
+        let all: Vec<&str> = [&["--load-state", state.as_str()][..], more].concat();
+        refused(&all, says);
+    };
+    load(&["--scene", "ripples", "--field", "32"], "holds a field of 64×64");
+    load(&["--scene", "ripples", "--field", "64", "--seed", "9"], "is of seed");
+    load(&["--scene", "bullet-wall", "--field", "64"], "is of the scene ripples");
+    load(&["--scene", "ripples", "--field", "64", "--depth", "0.3"], "`plane` is another");
+    // What is looked at otherwise is the same field.
+    capture(&out, &["--scene", "ripples", "--field", "64", "--load-state", &state, "--technique", "pom", "--shadow", "none"]);
+
+    let whole = std::fs::read(&state).expect("it was written");
+    std::fs::write(&state, &whole[..whole.len() - 100]).expect("it can be written");
+    load(&["--scene", "ripples", "--field", "64"], "is truncated or damaged");
+    std::fs::write(&state, b"something else").expect("it can be written");
+    load(&["--scene", "ripples", "--field", "64"], "is no state of a field");
+    refused(&["--load-state", "/no/such/file"], "cannot read the state /no/such/file");
+}
+
+#[test]
+fn a_state_that_cannot_be_written_is_refused_before_anything_is_made() {
+    refused(&["--scene", "relief", "--size", "32x32", "--field", "32", "--save-state", "/no/such/folder/state"], "cannot write");
+}
+
+#[test]
+fn a_journal_that_is_not_whole_is_refused() {
+    let directory = tempfile::tempdir().expect("there is a temporary directory");
+    let journal = path_in(&directory, "journal");
+    refused(&["--replay", "/no/such/file"], "cannot read the journal /no/such/file");
+    for (content, says) in [
+        (&b"\xff\xfe\x00"[..], "is no journal"),
+        (b"", "is no journal"),
+        (b"{}\n", "is no journal"),
+        (b"{\"rilievo_journal\":99}\n", "is of version 99"),
+        (b"{\"rilievo_journal\":1}\n{\"frames\":0}\n", "cannot be understood, line 1"),
+    ] {
+        std::fs::write(&journal, content).expect("it can be written");
+        refused(&["--replay", &journal], says);
+    }
+}
+
+#[test]
+fn what_a_journal_says_no_flag_may_contradict() {
+    for flag in [["--scene", "relief"], ["--seed", "3"], ["--field", "64"], ["--depth", "0.2"], ["--load-state", "state"]] {
+        let output = rilievo(&[&["capture", "--out", "out", "--replay", "journal"][..], &flag[..]].concat());
+        assert_eq!(output.status.code(), Some(2), "{flag:?}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
