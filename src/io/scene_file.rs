@@ -20,8 +20,6 @@ use crate::surface::{Albedo, Shading, Shadow, Technique};
 pub const EMBEDDED: [(&str, &str); 13] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
-    ("explosions", include_str!("../../scenes/explosions.toml")),
-    ("snow", include_str!("../../scenes/snow.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
     ("sidewalk", include_str!("../../scenes/sidewalk.toml")),
     ("fur", include_str!("../../scenes/fur.toml")),
@@ -31,6 +29,8 @@ pub const EMBEDDED: [(&str, &str); 13] = [
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
     ("cube", include_str!("../../scenes/cube.toml")),
     ("planet", include_str!("../../scenes/planet.toml")),
+    ("explosions", include_str!("../../scenes/explosions.toml")),
+    ("snow", include_str!("../../scenes/snow.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.
