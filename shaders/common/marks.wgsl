@@ -2,8 +2,11 @@
 //
 // Composed after common/material. Specification: src/reference/stamp.rs.
 
-// What lies well within the rim: laid bare, or polished.
-fn stamp_core(s: vec4f, rim_squared: f32) -> vec4f {
+// What lies well within the rim, or within a hard edge: laid bare, or polished.
+fn stamp_core(s: vec4f, rim_squared: f32, hard: bool) -> vec4f {
+    if hard {
+        return select(vec4f(0.0), vec4f(1.0), s < vec4f(1.0));
+    }
     return 1.0 - smoothstep(vec4f(0.5 * rim_squared), vec4f(rim_squared), s);
 }
 

@@ -262,12 +262,13 @@ fn stamp_image(extra: StampExtra, at: vec2f) -> f32 {
 // rounded to its levels.
 fn stamp_mark(stamp: StampRecord, extra: StampExtra, place: StampPlace, before: StampMaterial) -> StampMaterial {
     let rim_squared = select(1.0, STAMP_RIM_SQUARED, stamp.profile == STAMP_CRATER);
-    let core = stamp_core(place.s, rim_squared);
+    let hard = stamp.profile == STAMP_DISC && !(STAMP_FORMS && extra.half_extent.x > 0.0);
+    let core = stamp_core(place.s, rim_squared, hard);
     var bared = extra.bare * core;
     var glossed = extra.gloss * core;
     var sooted = extra.soot * stamp_fall(place.s, rim_squared);
     if STAMP_FORMS {
-        let core_before = stamp_core(place.before, rim_squared);
+        let core_before = stamp_core(place.before, rim_squared, hard);
         bared = stamp_rest(bared, extra.bare * core_before);
         glossed = stamp_rest(glossed, extra.gloss * core_before);
         sooted = stamp_rest(sooted, extra.soot * stamp_fall(place.before, rim_squared));

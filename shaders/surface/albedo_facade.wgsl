@@ -71,8 +71,8 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let in_plate = facade_inside(at, vec2f(FACADE_PLATE_LEFT, FACADE_PLATE_UPPER), vec2f(FACADE_PLATE_RIGHT, FACADE_PLATE_LOWER));
     if in_plate > 0.0 {
         // Blue enamel that rust has crept under from the edges; bare steel is bright.
-        let rust = smoothstep(0.45, 0.70, noise_over(metres, 34.0, 43u) + 0.35 * smoothstep(0.05, 0.0, in_plate) + 0.25 * (stain - 0.5));
-        let enamel = vec3f(0.06, 0.13, 0.22) * mix(0.85, 1.15, grain);
+        let rust = smoothstep(0.60, 0.80, noise_over(metres, 34.0, 43u) + 0.30 * smoothstep(0.04, 0.0, in_plate) + 0.30 * (stain - 0.5));
+        let enamel = vec3f(0.085, 0.125, 0.150) * mix(0.85, 1.15, grain);
         let face = mix(enamel, mix(vec3f(0.22, 0.085, 0.035), vec3f(0.36, 0.16, 0.06), grain), rust);
         var plate = sooty(mix(face, vec3f(0.56, 0.57, 0.58) * mix(0.85, 1.1, grain), stamped.g), soot);
         plate.specular = max(plate.specular, 0.55 * (1.0 - rust));

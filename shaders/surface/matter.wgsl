@@ -59,8 +59,11 @@ fn marked(matter: Matter, lattice: vec2f) -> Matter {
     after.roughness = mix(matter.roughness, min(matter.roughness, 0.22), gloss);
     after.specular = mix(matter.specular, max(matter.specular, 0.7), gloss);
     after.shininess = mix(matter.shininess, max(matter.shininess, 60.0), gloss);
-    // The hotter the whiter: green and blue fall faster than red, which is the glow itself.
-    let glow = stamped_glow(lattice);
+    // A crust forms as it cools, and what glows longest is between its flakes. The hotter the whiter: green and blue fall faster than
+    // red.
+    let hot = stamped_glow(lattice);
+    let crust = smoothstep(0.62, 0.40, noise_over(plane_metres(lattice), 38.0, 97u));
+    let glow = hot * mix(crust, 1.0, 0.75 * hot);
     after.glow += view.glow * glow * vec3f(1.0, 0.5 * glow * inverseSqrt(glow + 0.02), 0.22 * glow * glow);
     return after;
 }

@@ -105,7 +105,8 @@ impl Layers {
         };
 
         let rim = if stamp.profile == Profile::Crater { CRATER_RIM * CRATER_RIM } else { 1.0 };
-        let core = |rho: f64| 1.0 - smoothstep(0.5 * rim, rim, rho * rho);
+        let hard = stamp.profile == Profile::Disc && stamp.image.is_none();
+        let core = |rho: f64| if hard { f64::from(u8::from(rho < 1.0)) } else { 1.0 - smoothstep(0.5 * rim, rim, rho * rho) };
         let fall = |rho: f64| {
             let (s, outward) = (rho * rho, (rho * rho / rim).min(1.0));
             ((1.0 - s).max(0.0).powi(2) * (0.25 + 0.75 * outward * outward)).clamp(0.0, 1.0)
