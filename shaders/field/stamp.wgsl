@@ -285,7 +285,8 @@ fn stamp_mark(stamp: StampRecord, extra: StampExtra, place: StampPlace, before: 
     after.heat = before.heat;
     if extra.heat > 0.0 {
         let falloff = max(vec4f(0.0), 1.0 - place.s);
-        let glow = extra.heat * falloff * falloff;
+        // Within a crater's rim, and hardly beyond.
+        let glow = extra.heat * falloff * falloff * falloff * falloff * falloff;
         for (var k = 0u; k < 4u; k++) {
             after.heat[k] = stamp_hotter(before.heat[k], glow[k], extra.moment);
         }

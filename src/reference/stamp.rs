@@ -131,7 +131,7 @@ impl Layers {
             soot: cover(marks.soot, 255.0, bared, sooted),
             bare: cover(marks.bare, 255.0, 0.0, bared),
             gloss: cover(marks.gloss, 31.0, bared, glossed),
-            heat: hotter(marks.heat, stamp, (1.0 - place.rho * place.rho).max(0.0).powi(2), self.cooling_seconds),
+            heat: hotter(marks.heat, stamp, (1.0 - place.rho * place.rho).max(0.0).powi(5), self.cooling_seconds),
             post: marks.post,
         };
     }
