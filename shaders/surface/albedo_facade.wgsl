@@ -77,7 +77,9 @@ fn matter_at(point: SurfacePoint) -> Matter {
         var plate = sooty(mix(face, vec3f(0.56, 0.57, 0.58) * mix(0.85, 1.1, grain), stamped.g), soot);
         plate.specular = max(plate.specular, 0.55 * (1.0 - rust));
         plate.shininess = max(plate.shininess, 40.0);
-        plate.metallic = stamped.g;
+        // Behind the plate it is dark.
+        plate.albedo *= mix(1.0, smoothstep(0.62, 0.86, point.height), stamped.g);
+        plate.metallic = 0.6 * stamped.g;
         return plate;
     }
     let plastered = smoothstep(0.0, 0.008, facade_plastered(at));
