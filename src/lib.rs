@@ -7,10 +7,10 @@
 //! ```text
 //!              scene, clock, camera, strokes              plain data, CPU
 //!                  │
-//!    steps ×  ┌────▼────┐ state  ┌─────────┐ height ┌─────────┐ normal
-//!             │  wave   ├───────►│ compose ├───┬───►│ normals ├────────┐
-//!             └─────────┘        └────▲────┘   │    └─────────┘        ▼
-//!             ┌─────────┐ relief      │        │    ┌─────────┐ bounds ┌─────────┐ radiance ┌─────────┐
+//!    steps ×  ┌────▼────┐ heights┌─────────┐ height ┌─────────┐ normal
+//!             │ sources ├───────►│ compose ├───┬───►│ normals ├────────┐
+//!             └────▲────┘        └────▲────┘   │    └─────────┘        ▼
+//!             ┌────┴────┐ relief      │        │    ┌─────────┐ bounds ┌─────────┐ radiance ┌─────────┐
 //!             │  stamp  ├─────────────┘        └───►│ pyramid ├───────►│ surface ├─────────►│ present ├─► window, files, numbers
 //!             └─────────┘                           └─────────┘        └─────────┘          └─────────┘
 //! ```
@@ -42,7 +42,13 @@
 //! - **Determinism**: the same scene, seed, size and adapter give the same bytes. Random numbers come from
 //!   [Xoshiro256++](rand::rngs::Xoshiro256PlusPlus), whose sequence is guaranteed. No wall-clock time reaches a simulation.
 //!
-//! # Sources
+//! # The stack
+//!
+//! From the ground up: the base with every stamp pressed into it (the relief), then the sources of the scene
+//! ([`field::source::Source`]), each a layer that meets what lies beneath it by a blend and an amplitude ([`field::stack`]). A source
+//! that stands on a bed gets what lies beneath it composed there before it moves.
+//!
+//! # Literature
 //!
 //! - **\[POM\]** N. Tatarchuk, *Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows*, I3D 2006; **\[POM slides\]**,
 //!   its talk.
