@@ -258,7 +258,7 @@ impl Explosions {
         radii("explosions.radius_metres", self.radius_metres)?;
         number("explosions.depth_metres", self.depth_metres, Range::from_to(0.0, 1e6, "metres"))?;
         number("explosions.growth_seconds", self.growth_seconds, Range::from_to(0.0, 60.0, "seconds"))?;
-        number("explosions.ejecta", self.ejecta, Range::from_to(0.0, 10_000.0, "clods"))?;
+        number("explosions.ejecta", self.ejecta, Range::from_to(1.0, 10_000.0, "clods"))?;
         number("explosions.reach", self.reach, Range::from_to(0.0, 100.0, "radii"))?;
         number("explosions.scorch", self.scorch, SHARE)?;
         number("explosions.heat", self.heat, SHARE)?;
