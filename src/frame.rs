@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::camera::Camera;
 use crate::clock::{StepSeconds, Tick};
@@ -10,7 +11,8 @@ use crate::field::groundwork::Groundwork;
 use crate::field::normal_mips::{NormalMips, NormalMipsSet};
 use crate::field::normals::{Normals, NormalsSet};
 use crate::field::pyramid::{Pyramid, PyramidSet};
-use crate::field::source::{self, Health, State};
+use crate::field::sequence::Images;
+use crate::field::source::{self, Health, Source, State};
 use crate::field::stamp::StampImage;
 use crate::field::{self, Cover, Field, Region, Stack, base, material, normal_mips, normals, pyramid, stack};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
@@ -159,6 +161,8 @@ pub struct Frame {
     radiance: Texture<Radiance>,
     present_set: PresentSet,
     image_size: [u32; 2],
+    /// The picture of a series that lies over the field.
+    colours: Option<Arc<ColourImage>>,
     traffic: Traffic,
 }
 
@@ -217,6 +221,7 @@ impl Frame {
             radiance,
             present_set,
             image_size,
+            colours: None,
             traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
@@ -399,6 +404,11 @@ impl Frame {
         &self.scene
     }
 
+    /// Depth over the texel's width and height: the slope of a height of 1 a texel.
+    pub fn slope_per_height(&self) -> [f32; 2] {
+        slope_per_height(&self.scene)
+    }
+
     /// Width and height of the picture, pixels.
     pub fn image_size(&self) -> [u32; 2] {
         self.image_size
@@ -421,6 +431,8 @@ impl Frame {
         input: &FrameInput<'_>,
         target: Option<&wgpu::TextureView>,
     ) -> Result<(), FrameError> {
+        // Lay the picture of this moment over the field, where a series brings others.
+        self.lay_colours(gpu, input.strokes.images.as_deref());
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         self.traffic = Traffic::default();
         // Press this frame's stamps into the relief, and let it heal and cool in between.
@@ -440,6 +452,16 @@ impl Frame {
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
         Ok(())
+    }
+
+    fn lay_colours(&mut self, gpu: &Gpu, images: Option<&Images>) {
+        let Some(colours) = images.and_then(|images| images.colours.as_ref()) else { return };
+        let laid = self.colours.as_ref().is_some_and(|laid| Arc::ptr_eq(laid, colours));
+        // The picture that the frame started with has the size of them all.
+        if !laid && colours.size == self.field.albedo_map.size() {
+            albedo_image::overwrite(gpu, &self.field.albedo_map, colours);
+            self.colours = Some(colours.clone());
+        }
     }
 
     /// Submits what was recorded, with the timer's queries.
@@ -527,6 +549,16 @@ impl Frame {
     pub fn restore(&mut self, numbers: &[Vec<u64>]) {
         self.stack.restore(numbers.get(1..).unwrap_or_default());
         self.groundwork.resume();
+    }
+
+    /// The source of this name, if the scene has it.
+    pub fn source(&self, name: &str) -> Option<&dyn Source> {
+        self.stack.source(name)
+    }
+
+    /// Where what lies beneath water is composed to, if there is any.
+    pub fn bed(&self) -> Option<&wgpu::TextureView> {
+        self.stack.bed()
     }
 
     /// How each source fares, with its name.

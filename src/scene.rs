@@ -8,6 +8,8 @@ mod framing;
 mod layer;
 mod lights;
 mod lod;
+mod noise;
+mod sequence;
 mod stamping;
 mod techniques;
 mod text;
@@ -24,6 +26,10 @@ pub use bodies::{Ball, Mesh};
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
+pub use noise::{
+    ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
+};
+pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
 pub use stamping::{Explosions, Healing, Imprint, Shots, Struck, Track, TrackMaker};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
@@ -62,6 +68,12 @@ pub struct Scene {
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
+    /// Procedural heights over the base, if any.
+    #[serde(default)]
+    pub noise: Option<Noise>,
+    /// A numbered series of images over those, if any.
+    #[serde(default)]
+    pub sequence: Option<Sequence>,
     /// Seeded shots at the surface, if any.
     #[serde(default)]
     pub shots: Option<Shots>,
@@ -404,6 +416,8 @@ impl Default for Scene {
             plane: Plane::default(),
             base: Base::default(),
             wave: None,
+            noise: None,
+            sequence: None,
             shots: None,
             explosions: None,
             tracks: Vec::new(),

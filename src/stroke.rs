@@ -9,11 +9,14 @@ pub mod imprints;
 pub mod shots;
 pub mod tracks;
 
+use std::sync::Arc;
+
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 use crate::clock::{Simulation, Tick};
+use crate::field::sequence::Images;
 use crate::field::stamp::{Blend, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
 use crate::scene::{Rain, Scene};
@@ -34,7 +37,7 @@ pub enum Stroke {
 }
 
 /// All that is done to the field in one frame.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
     /// The scene's own stamps, in the order of their times.
     pub presses: Vec<Stamp>,
@@ -46,6 +49,8 @@ pub struct Strokes {
     pub stroke_number: u64,
     /// How many of the hand's last strokes are taken back, before anything is pressed.
     pub undo: u32,
+    /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
+    pub images: Option<Arc<Images>>,
 }
 
 impl Strokes {

@@ -63,6 +63,7 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/albedo_image", &["reference"], "a picture read where it lies: its test holds it to the picture itself"),
     ("surface/albedo_plain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_planet", &["src", "reference", "tests"], "a colour: the goldens hold it"),
+    ("surface/albedo_sand", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_terrain", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/albedo_water", &["src", "reference", "tests"], "a colour: the goldens hold it"),
     ("surface/ball", &["src", "reference", "tests"], "draws what surface/balls proves"),
@@ -92,9 +93,10 @@ const EXEMPT: &[(&str, &[&str], &str)] = &[
     ("surface/probe", &["reference", "tests"], "calls what others prove; their proofs run through it"),
 ];
 
-/// Techniques and shadows are one WGSL file each and share the passes that run them: they have no Rust of their own.
+/// Techniques, shadows and patterns are one WGSL file each and share the passes that run them: they have no Rust of their own.
 fn needs_rust(part: &str) -> bool {
     ![
+        "field/noise_",
         "surface/trace_",
         "surface/shadow_",
         "surface/traversal",

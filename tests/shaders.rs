@@ -7,6 +7,9 @@ use rilievo::field::blocks::Blocks;
 use rilievo::field::compose::{ComposeLayer, ComposeParams};
 use rilievo::field::cool::CoolParams;
 use rilievo::field::heal::HealParams;
+use rilievo::field::noise::{
+    NoiseColumns, NoiseDunes, NoiseFractal, NoiseGear, NoiseGears, NoiseLattice, NoiseParams, NoiseScales, PATTERNS,
+};
 use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
@@ -14,7 +17,7 @@ use rilievo::field::stamp::{Blend, Profile, StampExtra, StampParams, StampRecord
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
-use rilievo::scene::{LayerBlend, PomCounts, PyramidLeaf};
+use rilievo::scene::{Fold, LayerBlend, PomCounts, PyramidLeaf};
 use rilievo::surface::channels::Channel;
 use rilievo::surface::level_of_detail::ViewDetail;
 use rilievo::surface::light_probe::{Lit, Matter};
@@ -40,6 +43,7 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
+    all.extend(PATTERNS.map(|pattern| ["field/noise", pattern].map(str::to_owned).to_vec()));
     // Parts meet only through the functions that they share by name: each with each of another kind, not all with all.
     let plain = Choice::PLAIN;
     let techniques = Technique::ALL.iter().map(|&technique| Choice { technique, ..plain });
@@ -207,6 +211,17 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size, wrap })),
         ("NormalMipsParams", layout!(NormalMipsParams { blocks, source_size, size, last_weight })),
         ("PyramidParams", layout!(PyramidParams { blocks, source_size, size, wrap })),
+        ("NoiseParams", layout!(NoiseParams { size, texel_metres, count, salt, wrap, field_metres })),
+        ("NoiseLattice", layout!(NoiseLattice { scale, fraction, cell, period, slices, slice_fraction, weight, salt })),
+        ("NoiseFractal", layout!(NoiseFractal { contrast, fold })),
+        (
+            "NoiseColumns",
+            layout!(NoiseColumns { pitch, origin, period, turns, phase, disorder, low, high, ground, half_gap, edge, hexagons }),
+        ),
+        ("NoiseScales", layout!(NoiseScales { pitch, origin, period, turns, phase, disorder, radius, edge, lift, keel })),
+        ("NoiseGears", layout!(NoiseGears { half_module, edge, top })),
+        ("NoiseGear", layout!(NoiseGear { centre, rotation, teeth, spokes })),
+        ("NoiseDunes", layout!(NoiseDunes { turns, phase, crest, meander, variety, ripple_turns, ripple_phase, ripple_height })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
         ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
@@ -300,6 +315,14 @@ fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
     let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
     for (name, number) in profiles.into_iter().chain(blends) {
         assert_eq!(constant(&module, &name), Some(number), "{name}");
+    }
+}
+
+#[test]
+fn the_folds_of_noise_have_the_same_numbers_on_both_sides() {
+    let module = module(&["field/noise", "field/noise_fractal"].map(str::to_owned));
+    for fold in Fold::ALL {
+        assert_eq!(constant(&module, &format!("NOISE_{fold:?}").to_uppercase()), Some(*fold as u32), "{fold:?}");
     }
 }
 

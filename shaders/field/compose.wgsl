@@ -72,7 +72,8 @@ fn compose_blend(layer: ComposeLayer, below: f32, value: f32) -> f32 {
         case COMPOSE_MULTIPLY: { return below * (1.0 + layer.amplitude * (value - 1.0)); }
         case COMPOSE_MIN: { return min(below, layer.amplitude * value); }
         case COMPOSE_MAX: { return max(below, layer.amplitude * value); }
-        default: { return below + layer.amplitude * (value - below); }
+        // To the bit what lies beneath where the amplitude is 0, and the layer alone where it is 1.
+        default: { return below * (1.0 - layer.amplitude) + layer.amplitude * value; }
     }
 }
 

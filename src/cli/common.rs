@@ -7,14 +7,14 @@ use clap::Args;
 use super::Verbosity;
 use super::display::DisplayOptions;
 use super::values::{
-    Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, mesh_triangles, non_empty, pom_counts,
-    pom_counts_help, pyramid_leaf, pyramid_leaf_help, sample_range, shading, shading_help, shadow, shadow_help, sign, size,
-    switch, technique, technique_help, whole_u64,
+    Detail, backend, camera, depth, field, fov, height_range, light_angle, lod, mesh, mesh_triangles, non_empty, playback,
+    playback_help, pom_counts, pom_counts_help, pyramid_leaf, pyramid_leaf_help, sample_range, sequence_rate, shading,
+    shading_help, shadow, shadow_help, sign, size, switch, technique, technique_help, whole_u64,
 };
 use crate::gpu::Preference;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::MeshSource;
-use crate::scene::{PomCounts, PyramidLeaf};
+use crate::scene::{Playback, PomCounts, PyramidLeaf};
 use crate::surface::{Shading, Shadow, Technique};
 
 /// What every mode that shows a scene takes.
@@ -69,9 +69,29 @@ pub struct CommonOptions {
     #[arg(long, value_name = "IMAGE", help_heading = "Scene")]
     height: Option<PathBuf>,
 
-    /// The values in the image that become heights 0 and 1 [default: 0,1]
+    /// The values in the image, or in the series, that become heights 0 and 1 [default: 0,1]
     #[arg(long, value_name = "LO,HI", value_parser = height_range, allow_hyphen_values = true, help_heading = "Scene")]
     height_range: Option<[f32; 2]>,
+
+    /// A numbered series of PNG or EXR files played as heights: a folder, or a pattern like depth_%05d.png or depth_*.png; the
+    /// first one's size is the field's [default: none, the scene's own]
+    #[arg(long, value_name = "PATTERN|DIR", conflicts_with = "height", help_heading = "Scene")]
+    sequence: Option<PathBuf>,
+
+    /// As many PNG files, named likewise, whose colours lie over the series' heights [default: none, the scene's albedo]
+    #[arg(long, value_name = "PATTERN|DIR", help_heading = "Scene")]
+    sequence_colour: Option<PathBuf>,
+
+    /// Images of the series a second [default: the scene's, 30 unless its file says otherwise]
+    #[arg(long, value_name = "N", value_parser = sequence_rate, allow_negative_numbers = true, help_heading = "Scene")]
+    sequence_rate: Option<f32>,
+
+    #[arg(long, value_name = "HOW", value_parser = playback, help = playback_help(), help_heading = "Scene")]
+    sequence_playback: Option<Playback>,
+
+    /// Whether the series' images fade into one another: on or off [default: the scene's, off unless its file says otherwise]
+    #[arg(long, value_name = "SWITCH", value_parser = switch, help_heading = "Scene")]
+    sequence_interpolate: Option<bool>,
 
     /// Text in relief, as large as fits, that replaces the scene's starting height; \n begins another line [default: none, the scene's own]
     #[arg(long, value_name = "STRING", value_parser = sign, allow_hyphen_values = true, help_heading = "Scene")]
@@ -133,6 +153,11 @@ impl CommonOptions {
         SceneOverrides {
             height: self.height.clone(),
             height_range: self.height_range,
+            sequence: self.sequence.clone(),
+            sequence_colours: self.sequence_colour.clone(),
+            images_per_second: self.sequence_rate,
+            playback: self.sequence_playback,
+            interpolate: self.sequence_interpolate,
             text: self.text.clone(),
             font: self.font.clone(),
             albedo: self.albedo.clone(),

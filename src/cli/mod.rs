@@ -6,6 +6,7 @@
 mod common;
 mod compare;
 mod display;
+mod export;
 mod modes;
 mod refusal;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use clap::{Parser, Subcommand};
 pub use common::{CommonOptions, MachineOptions};
 pub use compare::{CompareOptions, Truth};
 pub use display::DisplayOptions;
+pub use export::Export;
 pub use modes::{AdaptersOptions, CaptureOptions, Channel, LiveOptions, ResumeOptions, StressOptions};
 pub use refusal::Refusal;
 

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::values::{channel, dt, frames, stamp_radius, stamps, whole_u32};
-use super::{CommonOptions, MachineOptions};
+use super::values::{channel, dt, export, export_help, frames, stamp_radius, stamps, whole_u32};
+use super::{CommonOptions, Export, MachineOptions};
 
 /// Where a run begins, if not at the start of its scene.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
@@ -84,9 +84,17 @@ pub struct CaptureOptions {
     /// Which channels to write, of color, position, normal, uv, height, visibility, steps and lod; color always is
     #[arg(long, value_name = "LIST", value_parser = channel, value_delimiter = ',', default_value = "color")]
     channels: Vec<Channel>,
+
+    #[arg(long, value_name = "LIST", value_parser = export, value_delimiter = ',', help = export_help())]
+    export: Vec<Export>,
 }
 
 impl CaptureOptions {
+    /// What to export, each once, in the order of [`Export::ALL`].
+    pub fn exports(&self) -> Vec<Export> {
+        Export::ALL.into_iter().filter(|export| self.export.contains(export)).collect()
+    }
+
     /// Whether this channel was asked for. Colour always is.
     pub fn wants(&self, channel: Channel) -> bool {
         channel == Channel::Color || self.channels.contains(&channel)

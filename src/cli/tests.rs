@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::*;
 use crate::io::scene_file::{CameraPlacement, FieldSize, SceneOverrides};
 use crate::mesh::{MeshSource, Shape};
-use crate::scene::{PomCounts, PyramidLeaf};
+use crate::scene::{Playback, PomCounts, PyramidLeaf};
 use crate::surface::{Shadow, Technique};
 
 fn parse(line: &str) -> Result<Command, Refusal> {
@@ -62,6 +62,11 @@ fn values_arrive() {
         SceneOverrides {
             height: Some("h.png".into()),
             height_range: Some([-5.0, 7.5]),
+            sequence: None,
+            sequence_colours: None,
+            images_per_second: None,
+            playback: None,
+            interpolate: None,
             text: None,
             font: None,
             albedo: Some("c.png".into()),
@@ -87,6 +92,19 @@ fn values_arrive() {
     );
     let overrides = capture("--text Two\\nlines --font f.ttf").common.overrides();
     assert_eq!((overrides.text.as_deref(), overrides.font), (Some("Two\nlines"), Some("f.ttf".into())));
+    let overrides = capture(
+        "--sequence d_%05d.png --sequence-colour c --sequence-rate 12.5 --sequence-playback ping-pong --sequence-interpolate on \
+         --height-range 0,3",
+    )
+    .common
+    .overrides();
+    assert_eq!((overrides.sequence, overrides.sequence_colours), (Some("d_%05d.png".into()), Some("c".into())));
+    assert_eq!(
+        (overrides.images_per_second, overrides.playback, overrides.interpolate),
+        (Some(12.5), Some(Playback::PingPong), Some(true))
+    );
+    let exports = capture("--export wave-exr,height-png,height-png").exports();
+    assert_eq!(exports, [Export::HeightPng, Export::SourceExr("wave")]);
     assert_eq!(capture("--text -a").common.overrides().text.as_deref(), Some("-a"));
     assert_eq!((options.frames, options.dt, options.warmup), (5, 0.5, 9));
     assert_eq!(options.channels(), [Channel::Color, Channel::Height, Channel::Lod]);
@@ -152,6 +170,9 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --adapter=", "--adapter"),
         ("capture --out DIR --channels color,hight", "did you mean `height`"),
         ("capture --out DIR --channels color,", "known are color"),
+        ("capture --out DIR --export height-pgn", "did you mean `height-png`"),
+        ("live --sequence-playback once", "loop, ping-pong and hold"),
+        ("live --sequence a --height b", "exclude each other"),
     ];
     let values = [
         ("seed", "-1 1.5 x 18446744073709551616"),
@@ -169,6 +190,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("frames", "0 -1 1.5 x 4294967296"),
         ("dt", "0 -1 nan inf x 1e9"),
         ("warmup", "-1 1.5 x"),
+        ("sequence-rate", "0 -1 nan inf x 1001"),
     ];
     let values = values.into_iter().flat_map(|(flag, values)| {
         values.split(' ').map(move |value| (format!("capture --out DIR --{flag} {value}"), format!("--{flag}")))

@@ -1,9 +1,9 @@
 //! The text of a value to the value, or else the rest of the sentence "`--flag` cannot be `text`: …".
 
-use super::{Channel, Truth};
+use super::{Channel, Export, Truth};
 use crate::io::scene_file::{CameraPlacement, FieldSize};
 use crate::mesh::MeshSource;
-use crate::scene::{self, PomCounts, PyramidLeaf};
+use crate::scene::{self, Playback, PomCounts, PyramidLeaf};
 use crate::suggest;
 use crate::surface::{Shading, Shadow, Technique};
 
@@ -84,6 +84,20 @@ pub(super) fn pyramid_leaf(text: &str) -> Result<PyramidLeaf, String> {
     found.ok_or_else(|| suggest::unknown("leaf", text, &names))
 }
 
+pub(super) fn playback_help() -> String {
+    let names: Vec<_> = Playback::ALL.iter().map(|choice| choice.name()).collect();
+    format!("What comes after the series' last image: {} [default: the scene's, or else loop]", suggest::enumerate(&names, "or"))
+}
+
+pub(super) fn playback(text: &str) -> Result<Playback, String> {
+    one_of("playback", text, Playback::ALL, Playback::name)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a rate has no use for more digits")]
+pub(super) fn sequence_rate(text: &str) -> Result<f32, String> {
+    number_within(text, scene::IMAGES_PER_SECOND).map(|number| number as f32)
+}
+
 pub(super) fn switch(text: &str) -> Result<bool, String> {
     match text {
         "on" => Ok(true),
@@ -132,6 +146,19 @@ pub(super) fn channel(text: &str) -> Result<Channel, String> {
     let names = Channel::ALL.map(Channel::name);
     let found = Channel::ALL.into_iter().find(|channel| channel.name() == text);
     found.ok_or_else(|| suggest::unknown("channel", text, &names))
+}
+
+pub(super) fn export_help() -> String {
+    let names = Export::ALL.map(Export::name);
+    format!(
+        "Images of the field itself to write beside each frame, of {}: heights as 16-bit grey (0 is 0, 1 is 65535) or to the bit, \
+         normals as 16-bit RGB with green up (gl) or down the image (dx), layers as they are [default: none]",
+        suggest::enumerate(&names, "and")
+    )
+}
+
+pub(super) fn export(text: &str) -> Result<Export, String> {
+    one_of("export", text, &Export::ALL, Export::name)
 }
 
 pub(super) fn truth(text: &str) -> Result<Truth, String> {

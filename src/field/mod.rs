@@ -13,6 +13,10 @@
 //! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
 //! | | | | *28 in every field* | | |
+//! | noise | r32float | 4 | height of the pattern, 0 to 1 | noise | compose |
+//! | | | | *4 more with noise* | | |
+//! | sequence | r32float | 4 | heights of the images, 0 to 1 | upload | compose |
+//! | | | | *4 more with sequence* | | |
 //! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | | | | *9 more with wave* | | |
@@ -30,10 +34,12 @@ pub mod dirty;
 pub mod groundwork;
 pub mod heal;
 pub mod material;
+pub mod noise;
 pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod region;
+pub mod sequence;
 pub mod source;
 pub mod stack;
 pub mod stamp;
@@ -93,7 +99,8 @@ pub const CONTRACT: &[(Contract, u32)] =
     &[(Relief::CONTRACT, 1), (Material::CONTRACT, 1), (Height::CONTRACT, 1), (Normal::CONTRACT, 1), (Pyramid::CONTRACT, 1)];
 
 /// What each kind of source adds to them.
-pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] = &[("wave", wave::CONTRACT)];
+pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] =
+    &[("noise", noise::CONTRACT), ("sequence", sequence::CONTRACT), ("wave", wave::CONTRACT)];
 
 /// Bytes a texel of the field that textures take together.
 pub fn bytes_per_texel<'a>(contract: impl IntoIterator<Item = &'a (Contract, u32)>) -> f64 {

@@ -2,6 +2,8 @@
 
 use super::bins::BinError;
 use super::compose::{self, Compose, ComposeSet};
+use super::noise::NoiseSource;
+use super::sequence::SequenceSource;
 use super::source::{Health, Source, SourceInput, State};
 use super::wave::WaveSource;
 use super::{Dirty, Field, Region};
@@ -13,6 +15,12 @@ use crate::stroke::Strokes;
 /// The sources of a scene, from the ground up. Adding a source is its stem and its line here.
 fn sources(gpu: &Gpu, field: &Field, scene: &Scene) -> Result<Vec<Box<dyn Source>>, ShaderError> {
     let mut sources: Vec<Box<dyn Source>> = Vec::new();
+    if scene.noise.is_some() {
+        sources.push(Box::new(NoiseSource::new(gpu, field.size)?));
+    }
+    if scene.sequence.is_some() {
+        sources.push(Box::new(SequenceSource::new(gpu, field.size)));
+    }
     if let Some(wave) = &scene.wave {
         sources.push(Box::new(WaveSource::new(gpu, field, scene, wave)?));
     }
@@ -20,13 +28,13 @@ fn sources(gpu: &Gpu, field: &Field, scene: &Scene) -> Result<Vec<Box<dyn Source
 }
 
 /// Which sources a scene has. Scenes that agree in this differ in no more than what [`Source::set_scene`] takes over.
-pub fn kinds(scene: &Scene) -> [bool; 1] {
-    [scene.wave.is_some()]
+pub fn kinds(scene: &Scene) -> [bool; 3] {
+    [scene.noise.is_some(), scene.sequence.is_some(), scene.wave.is_some()]
 }
 
 /// Whether any source of two scenes of the same kinds has other settings.
 pub fn differ(a: &Scene, b: &Scene) -> bool {
-    a.wave != b.wave
+    a.noise != b.noise || a.sequence != b.sequence || a.wave != b.wave
 }
 
 /// Whether a source of the scene writes [`Cover`](super::Cover).
@@ -144,6 +152,16 @@ impl Stack {
         let texel_bytes = compose::TEXEL_BYTES + compose::LAYER_BYTES * layers.len() as u64;
         self.composed_bytes += texel_bytes * texels;
         texels
+    }
+
+    /// The source of this name, if the scene has it.
+    pub fn source(&self, name: &str) -> Option<&dyn Source> {
+        self.sources.iter().find(|source| source.name() == name).map(Box::as_ref)
+    }
+
+    /// Where what lies beneath a source is composed to, if one stands on that.
+    pub fn bed(&self) -> Option<&wgpu::TextureView> {
+        self.sources.iter().find_map(|source| source.bed())
     }
 
     /// What each source remembers, with its name, from the ground up.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, ErrorKind};
 use std::path::Path;
 
-use super::height_image::{ImageError, check_size, damaged, kind_of, open};
+use super::height_image::{ImageError, check_size, damaged, kind_of, open, png_size};
 use crate::surface::albedo_image::ColourImage;
 
 /// Reads an image.
@@ -16,11 +16,32 @@ pub fn read(path: &Path) -> Result<ColourImage, ImageError> {
     let (file, signature) = open(path, "a PNG image")?;
     let image = match signature.as_slice() {
         b"\x89PNG\r\n\x1a\n" => read_png(file),
-        start if b"\x89PNG\r\n\x1a\n".starts_with(start) => Err(damaged("PNG", "it ends within the signature")),
-        [0x76, 0x2f, 0x31, 0x01, ..] => Err("is an OpenEXR image, and colours must be a PNG: convert it".to_owned()),
-        start => Err(format!("is {}, not a PNG image: convert it to one", kind_of(start))),
+        start => Err(foreign(start)),
     };
     image.map_err(|problem| ImageError::Unfit { path: path.to_owned(), problem })
+}
+
+/// The size that an image states, if its header and its end are sound: nothing is decoded.
+///
+/// # Errors
+///
+/// The file is missing, unreadable, of another kind, too large or cut off.
+pub fn size(path: &Path) -> Result<[u32; 2], ImageError> {
+    let (file, signature) = open(path, "a PNG image")?;
+    let size = match signature.as_slice() {
+        b"\x89PNG\r\n\x1a\n" => png_size(file),
+        start => Err(foreign(start)),
+    };
+    size.map_err(|problem| ImageError::Unfit { path: path.to_owned(), problem })
+}
+
+/// What a file that is no such image is called.
+fn foreign(start: &[u8]) -> String {
+    match start {
+        start if b"\x89PNG\r\n\x1a\n".starts_with(start) => damaged("PNG", "it ends within the signature"),
+        [0x76, 0x2f, 0x31, 0x01, ..] => "is an OpenEXR image, and colours must be a PNG: convert it".to_owned(),
+        start => format!("is {}, not a PNG image: convert it to one", kind_of(start)),
+    }
 }
 
 fn read_png(file: BufReader<File>) -> Result<ColourImage, String> {

@@ -5,7 +5,7 @@
 //! that size is allocated, so that no header can make the program run out of memory.
 
 use std::fs::File;
-use std::io::{BufReader, ErrorKind, Read as _, Seek as _};
+use std::io::{BufReader, ErrorKind, Read as _, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _};
@@ -71,8 +71,7 @@ impl HeightImage {
         let raw = match signature.as_slice() {
             b"\x89PNG\r\n\x1a\n" => read_png(file),
             [0x76, 0x2f, 0x31, 0x01, ..] => read_exr(file),
-            start if b"\x89PNG\r\n\x1a\n".starts_with(start) => Err(damaged("PNG", "it ends within the signature")),
-            start => Err(format!("is {}, not a PNG or an OpenEXR image: convert it to one of these", kind_of(start))),
+            start => Err(foreign(start)),
         };
         let mut image = raw.map_err(unfit)?;
         image.normalise(range).map_err(unfit)?;
@@ -124,6 +123,43 @@ impl HeightImage {
         let width = self.size[0] as usize;
         [i % width, i / width]
     }
+}
+
+/// The size that an image states, if its header and its end are sound: nothing is decoded.
+///
+/// # Errors
+///
+/// The file is missing, unreadable, of another kind, too large, cut off, or has no channel of heights.
+pub fn size(path: &Path) -> Result<[u32; 2], ImageError> {
+    let (mut file, signature) = open(path, "a PNG or an OpenEXR image")?;
+    let size = match signature.as_slice() {
+        b"\x89PNG\r\n\x1a\n" => png_size(file),
+        [0x76, 0x2f, 0x31, 0x01, ..] => read_exr_header(&mut file).map(|(_, size)| size),
+        start => Err(foreign(start)),
+    };
+    size.map_err(|problem| ImageError::Unfit { path: path.to_owned(), problem })
+}
+
+/// What a file that is no such image is called.
+fn foreign(start: &[u8]) -> String {
+    match start {
+        start if b"\x89PNG\r\n\x1a\n".starts_with(start) => damaged("PNG", "it ends within the signature"),
+        start => format!("is {}, not a PNG or an OpenEXR image: convert it to one of these", kind_of(start)),
+    }
+}
+
+/// The size of a PNG that has a sound header and an end.
+pub(super) fn png_size(mut file: BufReader<File>) -> Result<[u32; 2], String> {
+    let too_early = |_| damaged("PNG", "it ends too early");
+    let mut end = [0; 12];
+    file.seek(SeekFrom::End(-12)).and_then(|_| file.read_exact(&mut end)).map_err(too_early)?;
+    if end[4..8] != *b"IEND" {
+        return Err(damaged("PNG", "it has no end"));
+    }
+    file.rewind().map_err(too_early)?;
+    let mut decoder = png::Decoder::new(file);
+    let info = decoder.read_header_info().map_err(|error| damaged("PNG", &error.to_string()))?;
+    check_size(info.width.into(), info.height.into())
 }
 
 /// Opens an image and reads its first eight bytes, or as many as it has. `kinds` says in words what it must be.
@@ -238,12 +274,17 @@ fn luminance(pixel: &[u8], bytes: usize, samples: usize, sample: impl Fn(&[u8]) 
     height
 }
 
-fn read_exr(mut file: BufReader<File>) -> Result<HeightImage, String> {
-    let damaged = |error: exr::error::Error| match error {
+/// A decoder's complaint, as one of ours.
+fn damaged_exr(error: exr::error::Error) -> String {
+    match error {
         exr::error::Error::NotSupported(what) => format!("is an OpenEXR image of an unsupported kind ({what}): save it plainly"),
         other => damaged("OpenEXR", &other.to_string()),
-    };
-    let meta = exr::meta::MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
+    }
+}
+
+/// The channel of an EXR that holds heights, and its size.
+fn read_exr_header(file: &mut BufReader<File>) -> Result<(String, [u32; 2]), String> {
+    let meta = exr::meta::MetaData::read_from_buffered(file, false).map_err(damaged_exr)?;
     let flat: Vec<_> = meta.headers.iter().filter(|header| !header.deep).collect();
     if flat.is_empty() {
         return Err("is an OpenEXR image of deep data only: save it flat".to_owned());
@@ -273,7 +314,12 @@ fn read_exr(mut file: BufReader<File>) -> Result<HeightImage, String> {
             size = own;
         }
     }
-    file.rewind().map_err(|error| damaged(error.into()))?;
+    Ok((name, size))
+}
+
+fn read_exr(mut file: BufReader<File>) -> Result<HeightImage, String> {
+    let (name, size) = read_exr_header(&mut file)?;
+    file.rewind().map_err(|error| damaged_exr(error.into()))?;
     let width = size[0] as usize;
     let image = exr::prelude::read()
         .no_deep_data()
@@ -287,6 +333,6 @@ fn read_exr(mut file: BufReader<File>) -> Result<HeightImage, String> {
         .first_valid_layer()
         .all_attributes()
         .from_buffered(file)
-        .map_err(damaged)?;
+        .map_err(damaged_exr)?;
     Ok(HeightImage { size, heights: image.layer_data.channel_data.pixels })
 }

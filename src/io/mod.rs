@@ -4,8 +4,10 @@
 pub mod atomic;
 pub mod colour_image;
 pub mod exr_file;
+pub mod field_image;
 pub mod font;
 pub mod height_image;
+pub mod image_sequence;
 pub mod imprint_image;
 pub mod journal;
 pub mod manifest;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::atomic::WriteError;
 use super::manifest;
+use crate::cli::Export;
 
 /// A comparison's table, as comma-separated values.
 pub const TABLE_CSV: &str = "table.csv";
@@ -16,7 +17,7 @@ pub const TABLE_JSON: &str = "table.json";
 /// The command that writes: which files are its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Owner {
-    /// `frame_N.*`, `field_N.*` and `manifest.json`.
+    /// `frame_N.*`, `field_N.*`, `field_N_LAYER.*` of each that can be exported, and `manifest.json`.
     Capture,
     /// `row_N.*`, `row_N_error.*`, `row_N_flip.*`, `truth_N.*`, `curve_N.*`, `table.csv` and `table.json`.
     Compare,
@@ -30,6 +31,11 @@ impl Owner {
             let stem = name.strip_prefix(prefix).and_then(|rest| rest.split_once('.')).map_or("", |(stem, _)| stem);
             let number = match prefix {
                 "row_" => stem.strip_suffix("_error").or(stem.strip_suffix("_flip")).unwrap_or(stem),
+                "field_" => Export::ALL
+                    .iter()
+                    .map(|export| export.suffix())
+                    .find_map(|suffix| stem.strip_suffix(suffix).filter(|_| !suffix.is_empty()))
+                    .unwrap_or(stem),
                 _ => stem,
             };
             !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())
@@ -134,12 +140,24 @@ mod tests {
             "frame_00001.exr",
             "frame_123456.png",
             "field_00000.exr",
+            "field_00000.png",
+            "field_00012_normal-gl.png",
+            "field_00012_normal-dx.png",
+            "field_1_relief.exr",
+            "field_1_bed.exr",
+            "field_1_shallow-water.exr",
+            "field_1_wave.exr.partial-x1",
             "manifest.json",
             "frame_0.png.partial-x1",
         ];
         let others = [
             "frame_.png",
             "frame_a.png",
+            "field_00000_mine.png",
+            "field__relief.exr",
+            "field_a_relief.exr",
+            "frame_00000_relief.exr",
+            "field_00000_relief_relief.exr",
             "frame_00000",
             "my_frame_00000.png",
             "manifest.json.bak",

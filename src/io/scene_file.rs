@@ -6,18 +6,19 @@ use std::path::{Path, PathBuf};
 use super::colour_image;
 use super::font::{self, FontError};
 use super::height_image::{self, HeightImage, ImageError};
+use super::image_sequence::{Player, SequenceError, SequenceFiles};
 use super::imprint_image;
 use super::mesh_file::{self, MeshError};
 use crate::field::base::{self, Lettering};
 use crate::field::stamp::StampImage;
 use crate::mesh::{Mesh, MeshSource};
-use crate::scene::{self, Base, Camera, PomCounts, PyramidLeaf, Scene, SceneError, Text, VERSION};
+use crate::scene::{self, Base, Camera, Playback, PomCounts, PyramidLeaf, Scene, SceneError, Sequence, Text, VERSION};
 use crate::suggest;
 use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 13] = [
+pub const EMBEDDED: [(&str, &str); 16] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -29,6 +30,9 @@ pub const EMBEDDED: [(&str, &str); 13] = [
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
     ("cube", include_str!("../../scenes/cube.toml")),
     ("planet", include_str!("../../scenes/planet.toml")),
+    ("columns", include_str!("../../scenes/columns.toml")),
+    ("dunes", include_str!("../../scenes/dunes.toml")),
+    ("clockwork", include_str!("../../scenes/clockwork.toml")),
     ("explosions", include_str!("../../scenes/explosions.toml")),
     ("snow", include_str!("../../scenes/snow.toml")),
 ];
@@ -61,6 +65,16 @@ pub struct SceneOverrides {
     pub height: Option<PathBuf>,
     /// The values in the image that become 0 and 1.
     pub height_range: Option<[f32; 2]>,
+    /// A series of images that is played as heights.
+    pub sequence: Option<PathBuf>,
+    /// A series of images whose colours lie over those.
+    pub sequence_colours: Option<PathBuf>,
+    /// Images of a series a second.
+    pub images_per_second: Option<f32>,
+    /// What comes after the last image of a series.
+    pub playback: Option<Playback>,
+    /// Whether images of a series fade into one another.
+    pub interpolate: Option<bool>,
     /// A text that replaces the starting height, or that of a sign.
     pub text: Option<String>,
     /// The font of a text.
@@ -112,6 +126,8 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// The mesh that carries the relief; none: the plane.
     pub mesh: Option<Mesh>,
+    /// The files of its sequence, if it has one.
+    pub sequence: Option<SequenceFiles>,
     image: Option<HeightImage>,
     lettering: Option<Lettering>,
     /// The images that stamps may have for their form.
@@ -136,6 +152,12 @@ impl LoadedScene {
             _ => (base::heights(&self.scene).unwrap_or_default(), None),
         };
         (heights, self.colours.clone().or(colours))
+    }
+
+    /// What plays its series of images, if it has one.
+    pub fn player(&self) -> Option<Player> {
+        let (files, sequence) = (self.sequence.as_ref()?, self.scene.sequence.as_ref()?);
+        Some(Player::new(files.clone(), &self.scene, sequence))
     }
 
     /// The image's heights at the field's size, if the scene starts from an image.
@@ -181,6 +203,14 @@ pub enum SceneFileError {
     /// Its image is unfit.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// Its sequence is unfit.
+    #[error(transparent)]
+    Sequence(#[from] SequenceError),
+    /// There is no series that could be played so.
+    #[error(
+        "--sequence-colour, -rate, -playback and -interpolate say how a series is played, and this scene has none: name one with --sequence"
+    )]
+    PlayWithoutSequence,
     /// Its font is unfit.
     #[error(transparent)]
     Font(#[from] FontError),
@@ -191,7 +221,9 @@ pub enum SceneFileError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// There is nothing that a range could map.
-    #[error("--height-range maps the values of an image, and this scene has none: name one with --height")]
+    #[error(
+        "--height-range maps the values of an image, and this scene has none: name one with --height, or a series with --sequence"
+    )]
     RangeWithoutImage,
 }
 
@@ -250,14 +282,18 @@ fn prepare(
         Base::Image { path, range } => Some(HeightImage::read(path, *range)?),
         _ => None,
     };
+    let sequence = scene.sequence.as_ref().map(SequenceFiles::find).transpose()?;
     let lettering = match &scene.base {
         Base::Text(text) => Some(font::lettering(&text.text, text.font.as_deref())?),
         _ => None,
     };
     let colours = scene.material.image.as_deref().map(colour_image::read).transpose()?;
-    let own_size = image.as_ref().filter(|_| overrides.height.is_some() || !given.field_size).map(|image| image.size);
+    // What is played covers what it starts from.
+    let image_size_texels = sequence.as_ref().map(SequenceFiles::size).or(image.as_ref().map(|image| image.size));
+    let is_asked_for = overrides.height.is_some() || overrides.sequence.is_some() || !given.field_size;
+    let own_size = image_size_texels.filter(|_| is_asked_for);
     scene.field.size = match (overrides.field, own_size) {
-        (Some(size), _) => field_size(size, image.as_ref().map(|image| image.size)),
+        (Some(size), _) => field_size(size, image_size_texels),
         (None, Some(size)) => size,
         (None, None) => scene.field.size,
     };
@@ -270,7 +306,7 @@ fn prepare(
         None => None,
     };
     let images = imprint_image::load(&scene.imprints)?;
-    Ok(LoadedScene { scene, mesh, image, lettering, images, colours })
+    Ok(LoadedScene { scene, mesh, sequence, image, lettering, images, colours })
 }
 
 fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
@@ -337,6 +373,10 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
     for imprint in &mut scene.imprints {
         imprint.font.iter_mut().chain(&mut imprint.image).for_each(beside_scene);
     }
+    if let Some(sequence) = &mut scene.sequence {
+        beside_scene(&mut sequence.heights);
+        sequence.colours.iter_mut().for_each(beside_scene);
+    }
     if let Some(mesh) = &mut scene.mesh {
         mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
     }
@@ -363,9 +403,13 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
     if let Some(path) = &overrides.height {
         scene.base = Base::Image { path: path.clone(), range: None };
     }
+    if let Some(path) = &overrides.sequence {
+        scene.sequence = Some(Sequence { heights: path.clone(), ..Sequence::default() });
+    }
+    apply_sequence(scene, overrides)?;
     if overrides.height_range.is_some() {
-        match &mut scene.base {
-            Base::Image { range, .. } => *range = overrides.height_range,
+        match (&mut scene.sequence, &mut scene.base) {
+            (Some(Sequence { range, .. }), _) | (None, Base::Image { range, .. }) => *range = overrides.height_range,
             _ => return Err(SceneFileError::RangeWithoutImage),
         }
     }
@@ -395,6 +439,23 @@ fn apply(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileE
         scene.seed = seed;
     }
     overrides.look(scene);
+    Ok(())
+}
+
+/// Applies what the command line says about how a series is played.
+fn apply_sequence(scene: &mut Scene, overrides: &SceneOverrides) -> Result<(), SceneFileError> {
+    let SceneOverrides { sequence_colours, images_per_second, playback, interpolate, .. } = overrides;
+    let Some(sequence) = &mut scene.sequence else {
+        let nothing = sequence_colours.is_none() && images_per_second.is_none() && playback.is_none() && interpolate.is_none();
+        return if nothing { Ok(()) } else { Err(SceneFileError::PlayWithoutSequence) };
+    };
+    if let Some(path) = sequence_colours {
+        sequence.colours = Some(path.clone());
+        scene.material.albedo = Albedo::Image;
+    }
+    sequence.images_per_second = images_per_second.unwrap_or(sequence.images_per_second);
+    sequence.playback = playback.unwrap_or(sequence.playback);
+    sequence.interpolate = interpolate.unwrap_or(sequence.interpolate);
     Ok(())
 }
 

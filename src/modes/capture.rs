@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::headless::Headless;
 use super::script::Script;
-use super::{ModeError, check_health, progress, state, wait_for, wait_for_gpu};
+use super::{ModeError, check_health, export, progress, state, wait_for, wait_for_gpu};
 use crate::cli::{CaptureOptions, Channel, Verbosity};
 use crate::frame::{Frame, FrameInput};
 use crate::gpu::{Gpu, Readback};
@@ -25,11 +25,13 @@ pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormS
 ///
 /// The scene, its image, the adapter, its limits or the output directory are unfit, in this order; nothing is left behind.
 pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeError> {
-    let Headless { gpu, mut start, mut frame, picture, resumed } = Headless::open(&options.common, &options.resume)?;
+    let Headless { gpu, mut start, mut frame, picture, player, resumed } = Headless::open(&options.common, &options.resume)?;
     let total = u64::from(options.warmup) + u64::from(options.frames);
-    let mut script = Script::open(&gpu, &mut frame, resumed, options.dt, total)?;
+    let mut script = Script::open(&gpu, &mut frame, resumed, player, options.dt, total)?;
     let scene = &start.scene.clone();
     let channels = ChannelFiles::new(&gpu, scene, &options.channels())?;
+    let exports = options.exports();
+    export::check(&frame, &exports)?;
     if let Some(path) = &options.save_state {
         atomic::check(path)?;
     }
@@ -49,7 +51,13 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
         if let Some(index) = file_index {
             // Fewer frames than u32 can count were asked for.
             let index = index as u32;
-            let files = write_files(&gpu, &frame, &picture, &channels, &input, &directory, index)?;
+            let mut files = write_files(&gpu, &frame, &picture, &channels, &input, &directory, index)?;
+            // The field's exact heights are one file, whichever way they were asked for.
+            for name in export::write(&gpu, &frame, &exports, &directory, index)? {
+                if !files.contains(&name) {
+                    files.push(name);
+                }
+            }
             manifest.frames.push(manifest::Frame::new(index, moment.tick.time_seconds, &moment.camera, files));
         }
         progress.inc(1);

@@ -9,6 +9,7 @@ use super::{ModeError, load_scene, open_device, start};
 use crate::cli::{CommonOptions, ResumeOptions};
 use crate::frame::{self, Frame, Start};
 use crate::gpu::{Gpu, Timer};
+use crate::io::image_sequence::Player;
 use crate::io::scene_file;
 
 /// A frame that nobody watches.
@@ -21,6 +22,8 @@ pub struct Headless {
     pub frame: Frame,
     /// What it draws to.
     pub picture: Picture,
+    /// What plays its series of images, if it has one.
+    pub player: Option<Player>,
     /// Where the run begins.
     pub resumed: Resumed,
 }
@@ -39,11 +42,11 @@ impl Headless {
         };
         let gpu = open_device(common)?;
         frame::check_limits(&gpu, &loaded.scene, common.image_size)?;
-        let start = start(&loaded);
+        let (start, player) = start(&loaded)?;
         let resumed = script::resumed(resume, journal, common.overrides(), &start.scene, &start.heights)?;
         let frame = Frame::new(&gpu, &start, common.image_size, PICTURE_FORMAT)?;
         let picture = Picture::new(&gpu, common.image_size);
-        Ok(Self { gpu, start, frame, picture, resumed })
+        Ok(Self { gpu, start, frame, picture, player, resumed })
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod adapters;
 pub mod capture;
 pub mod compare;
+pub mod export;
 pub mod headless;
 pub mod live;
 mod progress;
@@ -18,6 +19,8 @@ use crate::frame::{Frame, FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
 use crate::io::atomic::WriteError;
+use crate::io::height_image::ImageError;
+use crate::io::image_sequence::Player;
 use crate::io::journal::JournalError;
 use crate::io::scene_file::{self, LoadedScene, SceneFileError};
 use crate::io::state_file::StateFileError;
@@ -40,6 +43,15 @@ pub enum ModeError {
     /// The specification does not say what the scene shows.
     #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
     NoReference,
+    /// There is no such layer to export.
+    #[error("--export {export} asks for what this scene does not have: leave it out, or name a scene that has it")]
+    NoLayer {
+        /// What was asked for.
+        export: &'static str,
+    },
+    /// An image of a series is unfit.
+    #[error(transparent)]
+    Image(#[from] ImageError),
     /// A journal is unfit.
     #[error(transparent)]
     Journal(#[from] JournalError),
@@ -89,10 +101,19 @@ pub fn load_scene(common: &CommonOptions) -> Result<LoadedScene, SceneFileError>
     scene_file::load(&common.scene, &common.overrides(), common.image_size)
 }
 
-/// What a frame starts from. Makes as many heights as the field has texels: check the size against the adapter first.
-pub fn start(loaded: &LoadedScene) -> Start {
-    let (heights, colours) = loaded.layers();
-    Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_images(loaded.images.clone())
+/// What a frame starts from, and what plays the scene's series of images, if it has one. Makes as many heights as the field has texels: check the size against the adapter first.
+///
+/// # Errors
+///
+/// The first image of its series is damaged.
+pub fn start(loaded: &LoadedScene) -> Result<(Start, Option<Player>), ModeError> {
+    let (heights, mut colours) = loaded.layers();
+    let mut player = loaded.player();
+    if let Some(player) = &mut player {
+        // Pictures of a series follow one another in a texture of the first one's size.
+        colours = player.at(0.0)?.colours.as_deref().cloned().or(colours);
+    }
+    Ok((Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_images(loaded.images.clone()), player))
 }
 
 /// How the sources of a frame fare, whose GPU is idle.

@@ -8,6 +8,8 @@ use crate::cli::ResumeOptions;
 use crate::clock::{Clock, Pace, Tick};
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::Gpu;
+use crate::io::height_image::ImageError;
+use crate::io::image_sequence::Player;
 use crate::io::journal::{self, Entry, Journal, JournalError};
 use crate::io::scene_file::SceneOverrides;
 use crate::io::state_file::SavedState;
@@ -57,6 +59,7 @@ impl Solo {
 pub struct Script {
     solo: Solo,
     replay: Option<Replay>,
+    player: Option<Player>,
 }
 
 /// A journal that is being replayed.
@@ -75,6 +78,11 @@ impl Replay {
     /// How many frames are left.
     pub fn frames_left(&self) -> usize {
         self.entries.len()
+    }
+
+    /// The times that the frames left show, seconds.
+    fn times_seconds(&self) -> impl Iterator<Item = f64> {
+        self.entries.as_slice().iter().map(|entry| entry.tick.time_seconds)
     }
 
     /// The time that the next frame spans, seconds; none after the last.
@@ -111,19 +119,37 @@ impl Replay {
 }
 
 impl Script {
-    /// What a run of so many frames does: from the start of its scene, from a saved state on, or as a journal says.
+    /// What a run of so many frames does: from the start of its scene, from a saved state on, or as a journal says. Every image that
+    /// it needs is read once: none fails on the way.
     ///
     /// # Errors
     ///
-    /// The state is unfit, or the journal has fewer frames.
-    pub fn open(gpu: &Gpu, frame: &mut Frame, resumed: Resumed, dt_seconds: f64, frames: u64) -> Result<Self, ModeError> {
-        let mut script = Self { solo: Solo::new(frame, dt_seconds), replay: None };
+    /// The state or an image is unfit, or the journal has fewer frames.
+    pub fn open(
+        gpu: &Gpu,
+        frame: &mut Frame,
+        resumed: Resumed,
+        player: Option<Player>,
+        dt_seconds: f64,
+        frames: u64,
+    ) -> Result<Self, ModeError> {
+        let mut script = Self { solo: Solo::new(frame, dt_seconds), replay: None, player };
         match resumed {
             Resumed::No => {}
             Resumed::State(state, path) => script.solo.clock = state::restore(gpu, frame, *state, &path)?,
             Resumed::Journal(replay, path) => {
                 check_length(replay.frames_left() as u64, frames, &path)?;
                 script.replay = Some(*replay);
+            }
+        }
+        if let Some(player) = &mut script.player {
+            match &script.replay {
+                Some(replay) => player.check(replay.times_seconds().take(frames as usize))?,
+                // From where a saved state stopped, one more than there are: the next is not there yet.
+                None => {
+                    let start_seconds = script.solo.clock.time_seconds();
+                    player.check((0..=frames).map(|number| start_seconds + number as f64 * dt_seconds))?;
+                }
             }
         }
         Ok(script)
@@ -139,19 +165,34 @@ impl Script {
             Some(replay) => replay.next(gpu, frame, start)?,
             None => None,
         };
-        Ok(match recorded {
+        let mut moment = match recorded {
             Some(moment) => {
                 self.solo.clock.follow(&moment.tick);
                 moment
             }
             None => self.solo.next(frame.scene()),
-        })
+        };
+        hand_images(&mut self.player, frame.scene(), &moment.tick, &mut moment.strokes)?;
+        Ok(moment)
     }
 
     /// The clock that goes on after the last frame.
     pub fn clock(&self) -> &Clock {
         &self.solo.clock
     }
+}
+
+/// Hands a frame what its moment shows of the scene's series of images, if it plays one.
+///
+/// # Errors
+///
+/// An image is unfit.
+pub fn hand_images(player: &mut Option<Player>, scene: &Scene, tick: &Tick, strokes: &mut Strokes) -> Result<(), ImageError> {
+    if let (Some(player), Some(sequence)) = (player, &scene.sequence) {
+        player.set(sequence);
+        strokes.images = Some(player.at(tick.time_seconds)?);
+    }
+    Ok(())
 }
 
 /// Where a run begins, if not at the start of its scene.

@@ -69,9 +69,9 @@ pub struct Report {
 ///
 /// The scene, its image, the adapter, its limits or the JSON file are unfit.
 pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, ModeError> {
-    let Headless { gpu, mut start, mut frame, picture, resumed } = Headless::open(&options.common, &options.resume)?;
+    let Headless { gpu, mut start, mut frame, picture, player, resumed } = Headless::open(&options.common, &options.resume)?;
     let total = WARMUP_FRAMES + u64::from(options.frames);
-    let mut script = Script::open(&gpu, &mut frame, resumed, DT_SECONDS, total)?;
+    let mut script = Script::open(&gpu, &mut frame, resumed, player, DT_SECONDS, total)?;
     let scene = &start.scene.clone();
     frame.timer = headless::trusted_timer(&gpu);
     let pass = Channels::new(&gpu, Choice::of(scene))?;

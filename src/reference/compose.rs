@@ -12,7 +12,7 @@ pub fn blend(beneath: f32, layers: &[(Layer, f32)]) -> f32 {
         LayerBlend::Multiply => below * (1.0 + amplitude * (value - 1.0)),
         LayerBlend::Min => below.min(amplitude * value),
         LayerBlend::Max => below.max(amplitude * value),
-        LayerBlend::Replace => below + amplitude * (value - below),
+        LayerBlend::Replace => below * (1.0 - amplitude) + amplitude * value,
     })
 }
 

@@ -16,7 +16,7 @@ pub enum LayerBlend {
     Min = 2,
     /// The higher of b and a·v.
     Max = 3,
-    /// b + a·(v − b): v alone where a is 1.
+    /// b·(1 − a) + a·v: v alone, to the bit, where a is 1.
     Replace = 4,
 }
 

@@ -8,7 +8,7 @@ use crate::surface::view::BALLS_MAX;
 use super::stamping::{validate_imprints, validate_tracks};
 use super::{
     Ball, Base, Camera, DirectionalLight, Explosions, Healing, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene,
-    Shots, Text, Trace, VERSION, Wave, check_text,
+    Shots, Text, Trace, VERSION, Wave, check_text, noise, sequence,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -113,6 +113,8 @@ impl Scene {
         numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.noise.as_ref().map_or(Ok(()), noise::validate)?;
+        self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
         self.shots.as_ref().map_or(Ok(()), Shots::validate)?;
         self.explosions.as_ref().map_or(Ok(()), Explosions::validate)?;
         self.healing.as_ref().map_or(Ok(()), Healing::validate)?;
@@ -122,7 +124,8 @@ impl Scene {
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
-        validate_material(&self.material, matches!(self.base, Base::StillLife {}))?;
+        let brings_colours = self.sequence.as_ref().is_some_and(|sequence| sequence.colours.is_some());
+        validate_material(&self.material, brings_colours || matches!(self.base, Base::StillLife {}))?;
         self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
         validate_balls(&self.balls)?;
         validate_camera(&self.camera)
@@ -298,12 +301,12 @@ fn validate_directional(key: &str, light: &DirectionalLight) -> Result<(), Scene
     number(key("turn_degrees_per_second"), light.turn_degrees_per_second, turn)
 }
 
-fn validate_material(material: &Material, base_has_colours: bool) -> Result<(), SceneError> {
+fn validate_material(material: &Material, scene_has_colours: bool) -> Result<(), SceneError> {
     match &material.image {
         Some(path) if path.as_os_str().is_empty() => {
             return refuse("material.image", "empty", "the path of a PNG file, or left out");
         }
-        None if material.albedo == Albedo::Image && !base_has_colours => {
+        None if material.albedo == Albedo::Image && !scene_has_colours => {
             return refuse(
                 "material.albedo",
                 "image",
@@ -342,7 +345,9 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Imprint, Lod, Rain, Track};
+    use super::super::{
+        Boundary, Columns, Dunes, FractalNoise, Gears, Imprint, Lod, Noise, NoisePattern, Rain, Scales, Sequence, Track,
+    };
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -355,6 +360,7 @@ mod tests {
                 obstacles: vec![obstacle],
                 ..Wave::default()
             }),
+            sequence: Some(Sequence { heights: "series".into(), ..Sequence::default() }),
             shots: Some(Shots::default()),
             explosions: Some(Explosions::default()),
             tracks: vec![Track::default()],
@@ -393,14 +399,28 @@ mod tests {
                 _ => {}
             }
         }
-        let whole = serde_json::to_value(full()).unwrap();
-        let mut found = Vec::new();
-        leaves(&whole, "", &mut found);
-        assert!(found.len() > 50, "{found:?}");
-        for path in found.iter().filter(|path| *path != "/seed") {
+        let patterns = [
+            NoisePattern::Fractal(FractalNoise::default()),
+            NoisePattern::Columns(Columns::default()),
+            NoisePattern::Scales(Scales::default()),
+            NoisePattern::Gears(Gears::default()),
+            NoisePattern::Dunes(Dunes::default()),
+        ];
+        let scenes = patterns.map(|pattern| Scene { noise: Some(Noise { pattern, ..Noise::default() }), ..full() });
+        let wholes = scenes.map(|scene| serde_json::to_value(scene).unwrap());
+        let paths = wholes.iter().flat_map(|whole| {
+            let mut found = Vec::new();
+            leaves(whole, "", &mut found);
+            assert!(found.len() > 50, "{found:?}");
+            found.into_iter().map(move |path| (whole, path))
+        });
+        for (whole, path) in paths.filter(|(_, path)| path != "/seed") {
+            let path = path.as_str();
             let mut poisoned = whole.clone();
             let slot = poisoned.pointer_mut(path).unwrap();
-            *slot = if slot.is_u64() { 0.into() } else { serde_json::json!(-1e30) };
+            // There may be no waves, but not a thousand.
+            let none = if path.contains("/waves/") { 1000 } else { 0 };
+            *slot = if slot.is_u64() { none.into() } else { serde_json::json!(-1e30) };
             let scene: Scene = serde_json::from_value(poisoned).unwrap();
             let error = scene.validate().expect_err(path).to_string();
             let key = path.split('/').rfind(|part| part.parse::<usize>().is_err()).unwrap();

@@ -112,6 +112,12 @@ pub(crate) fn encode(linear: f32) -> u8 {
 /// Uploads an image with all its mips.
 pub fn upload(gpu: &Gpu, image: &ColourImage) -> Texture<AlbedoMap> {
     let texture = Texture::new(gpu, image.size);
+    overwrite(gpu, &texture, image);
+    texture
+}
+
+/// Writes an image of the same size with all its mips over another.
+pub fn overwrite(gpu: &Gpu, texture: &Texture<AlbedoMap>, image: &ColourImage) {
     let mut level = image.clone();
     for index in 0..texture.texture.mip_level_count() {
         if index > 0 {
@@ -119,7 +125,6 @@ pub fn upload(gpu: &Gpu, image: &ColourImage) -> Texture<AlbedoMap> {
         }
         texture.write_level(gpu, index, &level.rgba);
     }
-    texture
 }
 
 #[cfg(test)]

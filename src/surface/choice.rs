@@ -117,6 +117,8 @@ choices! {
         Planet = "planet", "albedo_planet", "Planet";
         /// Snow that sparkles.
         Snow = "snow", "albedo_snow", "Snow";
+        /// Sand, winnowed pale on the crests.
+        Sand = "sand", "albedo_sand", "Sand";
         /// Grass, forest, rock and snow, by height and slope.
         Terrain = "terrain", "albedo_terrain", "Terrain";
         /// Clear water over a floor.

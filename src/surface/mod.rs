@@ -178,6 +178,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         | Albedo::Image
         | Albedo::Planet
         | Albedo::Snow
+        | Albedo::Sand
         | Albedo::Terrain
         | Albedo::Water => Vec::new(),
     });

@@ -7,7 +7,7 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 16] = [
+const GOLDENS: [(&str, &[&str]); 19] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("explosions", &["--scene", "explosions", "--warmup", "60"]),
@@ -21,6 +21,9 @@ const GOLDENS: [(&str, &[&str]); 16] = [
     ("depth-image", &["--scene", "depth-image", "--warmup", "40", "--field", "320x256"]),
     ("cube", &["--scene", "cube"]),
     ("planet", &["--scene", "planet", "--field", "256x128"]),
+    ("columns", &["--scene", "columns", "--warmup", "60"]),
+    ("dunes", &["--scene", "dunes", "--warmup", "60", "--field", "384x384"]),
+    ("clockwork", &["--scene", "clockwork", "--warmup", "60"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
     ("relief-ggx", &["--scene", "relief", "--shading", "ggx"]),
     ("glass", &["--scene", "tests/goldens/glass.toml"]),

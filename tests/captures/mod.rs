@@ -1,10 +1,12 @@
 //! What `capture` writes, read back from its files as a script outside would: the binary runs as a process.
 
 mod determinism;
+mod export;
 mod flight;
 mod goldens;
 mod positions;
 mod resumed;
+mod sequence;
 mod techniques;
 mod views;
 

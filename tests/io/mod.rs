@@ -3,4 +3,5 @@
 mod colour_image;
 mod font;
 mod height_image;
+mod image_sequence;
 mod scene_file;

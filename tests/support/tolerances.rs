@@ -267,3 +267,16 @@ pub const MESH_PIXEL_CELLS: f64 = 0.05;
 
 /// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
 pub const MESH_PIXEL_SHARE: f64 = 2e-3;
+
+/// Procedural heights against their f64 reference: a place on a lattice of some 30 cells is rounded to 2⁻²⁴ of that, an octave rises
+/// by up to 3 a cell, an edge a hundredth of the field wide by 1.5 in that. Twice what was measured of any pattern.
+pub const NOISE_HEIGHT: f64 = 5e-5;
+
+/// Mean of plain noise over a thousand cells: each is off by some 0.2 by chance.
+pub const NOISE_MEAN: f64 = 0.02;
+
+/// Turns by which a gear's angle, read from the heights of its teeth, may be off: the picture of an edge on texels, over 300 of them.
+pub const GEAR_TURNS: f64 = 2e-5;
+
+/// Modules by which straight-sided teeth may cut into each other where involutes would roll.
+pub const GEAR_INTERFERENCE: f64 = 0.12;

@@ -9,10 +9,11 @@ use crate::clock::Tick;
 use crate::frame::{Frame, FrameInput, Start};
 use crate::gpu::Gpu;
 use crate::io::height_image::HeightImage;
+use crate::io::image_sequence::Player;
 use crate::mesh::Mesh;
 use crate::modes::capture::{PICTURE_FORMAT, Picture, read_channels, read_texture};
 use crate::modes::headless::trusted_timer;
-use crate::modes::script::Solo;
+use crate::modes::script::{Solo, hand_images};
 use crate::modes::{ModeError, wait_for_gpu};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
@@ -62,13 +63,24 @@ impl Bench {
     /// # Errors
     ///
     /// The strokes of a frame are too many, or the device was lost.
-    pub fn after(gpu: &Gpu, start: &Start, mut frame: Frame, picture: Picture, warmup: u32) -> Result<Self, ModeError> {
+    pub fn after(
+        gpu: &Gpu,
+        start: &Start,
+        mut frame: Frame,
+        picture: Picture,
+        mut player: Option<Player>,
+        warmup: u32,
+    ) -> Result<Self, ModeError> {
         let scene = &start.scene;
+        let mut colours = start.colours.clone();
         let mut solo = Solo::new(&frame, DT_SECONDS);
         let mut tick = Tick::default();
         for number in 0..=warmup {
-            let moment = solo.next(scene);
+            let mut moment = solo.next(scene);
+            hand_images(&mut player, scene, &moment.tick, &mut moment.strokes)?;
             tick = moment.tick;
+            let images = moment.strokes.images.as_ref();
+            colours = images.and_then(|images| images.colours.as_deref().cloned()).or(colours);
             let input = moment.input(Display::default());
             let target = (number == warmup).then_some(picture.view());
             let mut encoder = gpu.encoder("compare");
@@ -79,15 +91,7 @@ impl Bench {
         // What was owed is done: from here on time stands.
         tick = Tick { previous_seconds: tick.time_seconds, owed: Default::default(), ..tick };
         frame.timer = trusted_timer(gpu);
-        Ok(Self {
-            frame,
-            scene: scene.clone(),
-            mesh: start.mesh.clone(),
-            colours: start.colours.clone(),
-            picture,
-            tick,
-            passes: HashMap::new(),
-        })
+        Ok(Self { frame, scene: scene.clone(), mesh: start.mesh.clone(), colours, picture, tick, passes: HashMap::new() })
     }
 
     /// The same content over a field of another size, which does not move.
@@ -190,7 +194,7 @@ impl Bench {
 
 /// A scene over a field of another size, which does not move.
 pub fn resized(scene: &Scene, size: [u32; 2]) -> Scene {
-    let mut scene = Scene { wave: None, shots: None, ..scene.clone() };
+    let mut scene = Scene { noise: None, sequence: None, wave: None, shots: None, ..scene.clone() };
     scene.field.size = size;
     scene
 }

@@ -45,7 +45,7 @@ use crate::surface::{Shadow, Technique};
 /// all files are written nevertheless.
 pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, ModeError> {
     let earlier = options.check.as_deref().map(Earlier::read).transpose()?;
-    let Headless { gpu, start, frame, picture, .. } = Headless::open(&options.common, &ResumeOptions::default())?;
+    let Headless { gpu, start, frame, picture, player, .. } = Headless::open(&options.common, &ResumeOptions::default())?;
     if options.truth == Truth::Reference && !truth::knows(&start.scene) {
         return Err(ModeError::NoReference);
     }
@@ -75,7 +75,7 @@ pub fn run(options: &CompareOptions, verbosity: Verbosity) -> Result<String, Mod
 
     let total = plan.keys().len() as u64 * (1 + u64::from(options.frames));
     let progress = progress::bar(total, &table.scene.name, verbosity == Verbosity::Quiet);
-    let mut own = Bench::after(&gpu, &start, frame, picture, options.warmup)?;
+    let mut own = Bench::after(&gpu, &start, frame, picture, player, options.warmup)?;
     let mut gallery = Gallery {
         directory: directory.as_ref(),
         size: options.common.image_size,

@@ -183,13 +183,13 @@ impl Open {
         check_limits(&gpu, &loaded.scene, options.common.image_size)?;
         let gui = Gui::new(&gpu, window.clone(), screen.format(), panel::set_style);
         let pacing = if options.frames.is_some() { Pacing::Fixed } else { Pacing::Realtime };
-        let start = start(loaded);
+        let (start, player) = start(loaded)?;
         let overrides = options.common.overrides();
         let resumed = script::resumed(&options.resume, journal, overrides, &start.scene, &start.heights)?;
         for path in options.record.iter().chain(&options.save_state) {
             atomic::check(path)?;
         }
-        let session = Session::new(gpu, start, pacing, screen.size(), screen.format())?;
+        let session = Session::new(gpu, start, pacing, screen.size(), screen.format())?.with_player(player);
         let mut session = session.with_scenes(scenes(&options.common.scene, loaded), scene_loader(options));
         session.resume(resumed)?;
         if let Some(path) = &options.record {
@@ -369,5 +369,5 @@ fn scenes(started_with: &str, loaded: &LoadedScene) -> Vec<(String, String)> {
 fn scene_loader(options: &LiveOptions) -> session::Load {
     let overrides = SceneOverrides { field: options.common.overrides().field, ..SceneOverrides::default() };
     let framed_size = framed_size(options);
-    Box::new(move |name| scene_file::load(name, &overrides, framed_size).map(|loaded| start(&loaded)).map_err(ModeError::from))
+    Box::new(move |name| start(&scene_file::load(name, &overrides, framed_size)?))
 }

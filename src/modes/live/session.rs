@@ -11,11 +11,13 @@ use super::pick::Picker;
 use super::readings::Readings;
 use crate::camera::{Camera, Rig};
 use crate::clock::{Clock, Pace, Tick};
+use crate::field::stack::kinds;
 use crate::frame::{Frame, FrameError, FrameInput, Start};
 use crate::gpu::{Gpu, Readback};
+use crate::io::image_sequence::Player;
 use crate::io::{journal, png_file, shader_folder};
 use crate::modes::capture::Picture;
-use crate::modes::script::{Moment, Replay, Resumed};
+use crate::modes::script::{Moment, Replay, Resumed, hand_images};
 use crate::modes::{ModeError, state};
 use crate::stroke::{Stroke, Strokes};
 use crate::surface::Technique;
@@ -37,7 +39,7 @@ pub enum Pacing {
 }
 
 /// Makes the start of a scene, by its name.
-pub type Load = Box<dyn Fn(&str) -> Result<Start, ModeError>>;
+pub type Load = Box<dyn Fn(&str) -> Result<(Start, Option<Player>), ModeError>>;
 
 /// See the module's documentation.
 pub struct Session {
@@ -54,6 +56,8 @@ pub struct Session {
     rig: Rig,
     start: Start,
     load: Option<Load>,
+    /// What plays the scene's series of images, if it has one.
+    player: Option<Player>,
     pacing: Pacing,
     format: wgpu::TextureFormat,
     pub(super) readings: Readings,
@@ -116,6 +120,7 @@ impl Session {
             rig,
             start,
             load: None,
+            player: None,
             pacing,
             format,
             readings,
@@ -181,6 +186,11 @@ impl Session {
         self.panel.scenes = scenes;
         self.load = Some(load);
         self
+    }
+
+    /// Plays the scene's series of images.
+    pub fn with_player(self, player: Option<Player>) -> Self {
+        Self { player, ..self }
     }
 
     /// What the window is called.
@@ -302,12 +312,12 @@ impl Session {
 
     fn choose(&mut self, index: usize) {
         let (Some((name, _)), Some(load)) = (self.panel.scenes.get(index), &self.load) else { return };
-        let made = load(name).and_then(|start| {
+        let made = load(name).and_then(|(start, player)| {
             let frame = Frame::new(&self.gpu, &start, self.frame.image_size(), self.format)?;
-            Ok((start, frame))
+            Ok((start, player, frame))
         });
         match made {
-            Ok((start, frame)) => {
+            Ok((start, player, frame)) => {
                 if let Some(journal) = self.journal.take() {
                     match journal.finish() {
                         Ok(()) => log::info!("the journal ends here: it holds one scene"),
@@ -316,6 +326,7 @@ impl Session {
                 }
                 self.halted = None;
                 self.frame = frame;
+                self.player = player;
                 self.panel.choose(start.scene.clone());
                 self.rig = Rig::new(start.scene.camera.clone());
                 self.clock = Clock::new(self.frame.step_seconds());
@@ -366,7 +377,7 @@ impl Session {
         let presses =
             scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty() || !scene.imprints.is_empty();
         let heals = self.frame.groundwork().heals() || self.hand.waits();
-        let lives = !self.panel.paused && (scene.wave.is_some() || presses || heals || turns);
+        let lives = !self.panel.paused && (kinds(scene).contains(&true) || presses || heals || turns);
         let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
         lives
             || hand
@@ -417,7 +428,8 @@ impl Session {
     ) -> Result<(), FrameError> {
         self.panel.pass_time(elapsed_seconds);
         let elapsed_seconds = elapsed_seconds.min(LONGEST_FRAME_SECONDS);
-        if let Some(moment) = self.replayed(elapsed_seconds)? {
+        if let Some(mut moment) = self.replayed(elapsed_seconds)? {
+            self.hand_images(&moment.tick, &mut moment.strokes);
             (self.tick, self.shown, self.centred) = (moment.tick, moment.camera, moment.camera);
             return self.frame.record(&self.gpu, encoder, &moment.input(self.panel.display), target);
         }
@@ -430,6 +442,8 @@ impl Session {
         self.centred = self.rig.centred(self.tick.time_seconds);
         self.write_down(&hand);
         strokes.add_hand(&self.panel.scene, &hand);
+        let tick = self.tick;
+        self.hand_images(&tick, &mut strokes);
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
         self.shown = self.rig.camera(self.tick.time_seconds);
         let input = FrameInput { tick: &self.tick, strokes: &strokes, camera: &self.shown, display: self.panel.display };
@@ -480,6 +494,15 @@ impl Session {
                 self.panel.say_error(sentence);
             }
             self.halted = halted;
+        }
+    }
+
+    /// Hands a frame the images of its moment.
+    fn hand_images(&mut self, tick: &Tick, strokes: &mut Strokes) {
+        if let Err(error) = hand_images(&mut self.player, &self.panel.scene, tick, strokes) {
+            // What was shown last stays.
+            self.player = None;
+            self.panel.say_error(&error.to_string());
         }
     }
 

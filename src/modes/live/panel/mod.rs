@@ -8,6 +8,7 @@ mod detail;
 mod keys;
 mod light;
 mod material;
+mod noise;
 mod scene;
 mod simulation;
 mod split;
@@ -197,6 +198,8 @@ impl Panel {
         self.detail_group(ui);
         self.light_group(ui);
         self.material_group(ui);
+        self.noise_group(ui);
+        self.sequence_group(ui);
         self.simulation_group(ui);
         self.brush_group(ui, actions);
         self.camera_group(ui, actions);
