@@ -26,7 +26,7 @@ impl Panel {
             let control =
                 Control::new("Rate", " /s", 1.0, 60.0).decimals(0).tip("How often while it is held; once a frame at most");
             value(ui, &control, &mut brush.per_second, was.per_second);
-            let undo = egui::Button::new(format!("↶ Undo ({undoable})"));
+            let undo = egui::Button::new(format!("Undo ({undoable})"));
             let tip = "Take back the last stroke of the brush (Ctrl+Z); the number says how many can be";
             if ui.add_enabled(undoable > 0, undo).on_hover_text(tip).clicked() {
                 actions.push(Action::Undo);
