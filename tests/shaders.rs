@@ -178,8 +178,6 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 reflection,
                 index,
                 gain,
-                background,
-                light_count,
                 light_radius,
                 area_samples,
                 level_cap,

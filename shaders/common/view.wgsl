@@ -88,8 +88,6 @@ struct View {
     reflection: f32,             // how much of its surroundings the surface mirrors
     index: f32,                  // of refraction, where the surface is transparent
     gain: f32,                   // of the view of errors: the brightest heat is an error of 1 / gain texels
-    background: u32,             // what is behind everything: see surface/sky.wgsl
-    light_count: u32,
     light_radius: f32,           // tangent of half the angle that the light's disc spans
     area_samples: u32,           // points of the light's disc
     level_cap: u32,              // of the view that ends the traversal at a level
@@ -112,6 +110,25 @@ struct View {
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;
 @group(0) @binding(1) var bilinear: sampler;
+
+// How many lights shine; there are no more in `lights`. Fixed when the pipeline is built: a software adapter runs a loop's body once
+// more than it need, and reads every light there for each lane by itself.
+override LIGHTS: u32 = 4u;
+
+// Light i. By comparisons: an index that varies would keep the whole of the private `view` in memory.
+fn view_light(i: u32) -> ViewLight {
+    var source = view.lights[0];
+    if LIGHTS > 1u && i == 1u {
+        source = view.lights[1];
+    }
+    if LIGHTS > 2u && i == 2u {
+        source = view.lights[2];
+    }
+    if LIGHTS > 3u && i == 3u {
+        source = view.lights[3];
+    }
+    return source;
+}
 
 // The invocation's own copy, which every entry point makes first: a traversal reads some of it at every step, and a software
 // adapter would go to the buffer each time.

@@ -39,8 +39,8 @@ fn balls_visibility(position: vec3f, toward_light: vec3f) -> f32 {
 fn ball_radiance(ball: Ball, position: vec3f, toward_eye: vec3f) -> vec3f {
     let normal = (position - ball.centre) / ball.radius;
     var radiance = ball.colour * sky_mean(normal);
-    for (var i = 0u; i < view.light_count; i++) {
-        let source = view_buffer.lights[i];
+    for (var i = 0u; i < LIGHTS; i++) {
+        let source = view_light(i);
         let halfway = normalize(toward_eye + source.toward);
         let highlight = 1.6 * pow(max(dot(normal, halfway), 0.0), 90.0) * step(0.0, dot(normal, source.toward));
         radiance += source.radiance * (ball.colour * max(dot(normal, source.toward), 0.0) + highlight);

@@ -25,7 +25,7 @@ fn stamped_matter(lattice: vec2f) -> vec4f {
     let cell = vec2i(floor(lattice));
     let f = fract(lattice);
     let low = address(cell);
-    let high = address(cell + 1);
+    let high = address_after(cell, low);
     let north = mix(stamped_texel(low), stamped_texel(vec2i(high.x, low.y)), f.x);
     let south = mix(stamped_texel(vec2i(low.x, high.y)), stamped_texel(high), f.x);
     return mix(north, south, f.y);

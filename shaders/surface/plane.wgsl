@@ -10,9 +10,9 @@ fn plane_depth(shaded: Shaded, pixel: PixelRay) -> f32 {
 }
 
 @fragment
-fn plane(@builtin(position) position: vec4f) -> ColourAndDepth {
-    view = view_buffer;
-    let pixel = pixel_ray(position.xy);
+fn plane(cover: Cover) -> ColourAndDepth {
+    cover_view(cover);
+    let pixel = pixel_ray(cover.position.xy);
     let coverage = plane_coverage(pixel);
     if coverage == 0.0 {
         discard;
@@ -23,9 +23,9 @@ fn plane(@builtin(position) position: vec4f) -> ColourAndDepth {
 }
 
 @fragment
-fn plane_channel(@builtin(position) position: vec4f) -> ColourAndDepth {
-    view = view_buffer;
-    let pixel = pixel_ray(position.xy);
+fn plane_channel(cover: Cover) -> ColourAndDepth {
+    cover_view(cover);
+    let pixel = pixel_ray(cover.position.xy);
     if !shows_plane(pixel) {
         discard;
     }

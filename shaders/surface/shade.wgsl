@@ -26,8 +26,8 @@ struct Shaded {
 // cut through the relief nothing but the balls casts shadows.
 fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, reference: vec3f, is_cut: bool) -> vec4f {
     var arrives = vec4f(0.0);
-    for (var i = 0u; i < view.light_count; i++) {
-        let source = view_buffer.lights[i];
+    for (var i = 0u; i < LIGHTS; i++) {
+        let source = view_light(i);
         if dot(normal, source.toward) > 0.0 && (is_cut || dot(reference, source.toward) > LIGHT_LEVEL) {
             var share = balls_visibility(world, source.toward);
             if share > 0.0 && source.casts_shadow == 1u && !is_cut {
@@ -98,8 +98,8 @@ fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     }
     var radiance = matter.glow + light_around(matter, dot(normal, toward_eye), open * sky_mean(normal), open * mirrored)
         + balls_mirrored(position, normal, toward_eye, max(matter.specular, matter.reflection));
-    for (var i = 0u; i < view.light_count; i++) {
-        let source = view_buffer.lights[i];
+    for (var i = 0u; i < LIGHTS; i++) {
+        let source = view_light(i);
         radiance += lit[i] * source.radiance * light(matter, normal, toward_eye, source.toward);
     }
     return Shaded(ray, hit, height, normal, lit.x, radiance);

@@ -94,8 +94,12 @@ fn shadow(ray: Ray) -> f32 {
         let b = select(select(-2.0, 2.0, slice == 1) / 3.0, 0.0, slice == 0);
         let head = sqrt(1.0 - inner * inner);
         let foot = clamp(horizon, -head, head);
+        // What is near is known of the middle already.
+        let is_middle = slice == 0;
+        let from_t = select(begin, max(begin, t_near), is_middle);
+        let lowest_climb = max(shadow_cone_climb(disc, foot), select(0.0, close, is_middle));
         let climb = shadow_cone_horizon(
-            ray, start, disc.travel + b * disc.across, begin, TRAVERSAL_NEVER, shadow_cone_climb(disc, foot), shadow_cone_climb(disc, head),
+            ray, start, disc.travel + b * disc.across, from_t, TRAVERSAL_NEVER, lowest_climb, shadow_cone_climb(disc, head),
         );
         let share = shadow_cone_share(inner, outer, clamp(shadow_cone_point(disc, climb), max(horizon, -1.0), 1.0));
         seen += select(1.0, 2.0, slice == 0) * share;
@@ -115,9 +119,8 @@ fn shadow_cone_wedge(disc: LightDisc) -> ShadowConeWedge {
 fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, t_stop: f32, foot: f32, top: f32) -> f32 {
     let highest = traversal_highest();
     var climb = foot;
-    var t = t_begin;
     var t_end = min((highest - start) / climb, t_stop);
-    if t >= t_end || climb >= top {
+    if t_begin >= t_end || climb >= top {
         return climb;
     }
     let still = abs(slice_travel) < vec2f(TRAVERSAL_STILL);
@@ -126,41 +129,22 @@ fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, 
     let way = traversal_way(travel);
     let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
     let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
-    var place = traversal_place(ray, way, ray.lattice + t_begin * travel, level);
-    var steps = 0u;
-    while t < t_end {
-        // On to the next cell whose bound is above the ray; see surface/traversal.
-        var t_out = t;
-        var crosses = vec2<bool>(false);
-        var arrived = false;
-        while !arrived && steps < view.step_cap {
-            steps += 1u;
-            let node = traversal_node(way, place, place.level);
-            let bound = textureLoad(pyramid, max(node, vec2i(0)), place.level).r + TRAVERSAL_SLACK;
-            let t_border = traversal_borders(ray, way, place, node, per_travel);
-            t_out = max(t, min(min(t_border.x, t_border.y), t_end));
-            crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
-            let enters = start + climb * t <= bound;
-            arrived = enters && place.level == 0;
-            if !arrived {
-                if !enters && t_out >= t_end {
-                    return climb;
-                }
-                t = select(t_out, t, enters);
-                place = traversal_onward(way, place, node, ray.lattice + t * travel, enters, crosses);
-            }
+    let place = traversal_place(ray, way, ray.lattice + t_begin * travel, level);
+    var found = TraversalSearch(place, t_begin, t_begin, t_begin, vec2<bool>(false), 0u, false, false);
+    while found.t < t_end {
+        let climbing = Ray(ray.lattice, slice_travel, start, climb, ray.cell, t_end, MISS);
+        found = traversal_search(climbing, way, per_travel, t_end, 0, found);
+        if !found.arrived {
+            // Nothing stands in the way; or it gave up, and counts as dark.
+            return select(top, climb, found.ended);
         }
-        if !arrived {
-            // It gave up, and counts as dark.
-            return top;
-        }
-        climb = max(climb, shadow_cone_leaf(ray, travel, way, place, start, t, t_out));
+        climb = max(climb, shadow_cone_leaf(ray, travel, way, found.place, start, found.t_under, found.t_out));
         if climb >= top {
             return top;
         }
         t_end = min((highest - start) / climb, t_stop);
-        t = t_out;
-        place = traversal_across(way, place, place.cell, crosses);
+        found.t = found.t_out;
+        found.place = traversal_across(way, found.place, found.place.cell, found.crosses);
     }
     return climb;
 }
@@ -221,7 +205,7 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
             return max(behind * t, t_begin);
         }
         t = select(t_out, t, rises);
-        place = traversal_onward(way, place, node, ray.lattice + t * travel, rises, crosses);
+        place = traversal_onward(way, place, node, ray.lattice + t * travel, rises, crosses, 0);
     }
     return TRAVERSAL_NEVER;
 }

@@ -45,19 +45,23 @@ fn sky_blurred(direction: vec3f, roughness: f32) -> vec3f {
 // Radiance of the lights' discs and their glow.
 fn sky_suns(direction: vec3f) -> vec3f {
     var radiance = vec3f(0.0);
-    for (var i = 0u; i < view.light_count; i++) {
-        let toward = max(dot(direction, view_buffer.lights[i].toward), 0.0);
+    for (var i = 0u; i < LIGHTS; i++) {
+        let source = view_light(i);
+        let toward = max(dot(direction, source.toward), 0.0);
         // A lobe 5.5° wide: wide enough to glitter, and as bright as a screen can show anyway.
-        radiance += 9.0 * pow(toward, 420.0) * view_buffer.lights[i].radiance;
+        radiance += 9.0 * pow(toward, 420.0) * source.radiance;
     }
     return radiance;
 }
 
-// What is behind everything, in the pixel at `position`.
-const BACKGROUND_SKY: u32 = 1u;
+// Whether the sky is behind everything, or a studio. Fixed when the pipeline is built: a software adapter would look up the sky, and
+// the pixel's direction, for both.
+override SKY_BEHIND: bool = true;
 
-fn background(position: vec2f, direction: vec3f) -> vec3f {
-    if view.background == BACKGROUND_SKY {
+// What is behind everything, in the pixel at `position`.
+fn background(position: vec2f) -> vec3f {
+    if SKY_BEHIND {
+        let direction = pixel_direction(position);
         return sky(direction) + select(vec3f(0.0), sky_suns(direction), direction.y > 0.0);
     }
     // A dim studio, brighter behind the middle of the picture.

@@ -11,8 +11,8 @@
 // is the paper's (fig. 14, top), steps count a little differently.
 //
 // Of fig. 13 it mends what its text means: it samples at the ray's end, not at its start; a node is left by its own border,
-// integer ids keep it from being met again, and no offset is added; after a crossing that leaves the parent the search goes on
-// one level up, where the paper's stays at the finest it came to.
+// integer ids keep it from being met again, and no offset is added; after a crossing that leaves the node above the search goes
+// on there, where the paper's stays at the finest it came to; and it climbs and descends by the traversal's stride, two levels at once.
 //
 // The refinement is §3.3's, and an approximation by design: it believes that the bilinear surface is met within half a texel of
 // the column's. It steps over what rises less than that, and over a ridge between columns that the ray passes without touching
@@ -112,7 +112,7 @@ fn trace_pyramid(ray: Ray) -> Hit {
             return end_of(ray, steps);
         }
         t = select(t_out, t_under, descends);
-        place = traversal_onward(way, place, node, ray.lattice + t * travel, descends, crosses);
+        place = traversal_onward(way, place, node, ray.lattice + t * travel, descends, crosses, finest);
     }
     return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, CAPPED);
 }

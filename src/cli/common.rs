@@ -49,9 +49,13 @@ pub struct CommonOptions {
     pyramid_leaf: Option<PyramidLeaf>,
 
     /// Mip level beyond which normal mapping alone is left and nothing is marched, 4 in the papers; or off. exact stays exact
-    /// unless the scene says otherwise [default: the scene's]
+    /// unless --lod-exact or the scene says otherwise [default: the scene's]
     #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
     lod: Option<Detail>,
+
+    /// Whether exact stays exact under level of detail, or stops at cells a sixth of a pixel: on or off [default: the scene's]
+    #[arg(long, value_name = "SWITCH", value_parser = switch, help_heading = "Scene")]
+    lod_exact: Option<bool>,
 
     /// Seed of everything random [default: the scene's]
     #[arg(long, value_name = "N", value_parser = whole_u64, allow_negative_numbers = true, help_heading = "Scene")]
@@ -170,6 +174,7 @@ impl CommonOptions {
             technique: self.technique,
             shadow: self.shadow,
             lod: self.lod.map(|detail| detail.0),
+            lod_keep_exact: self.lod_exact,
             shading: self.shading,
             samples: self.samples,
             pom_counts: self.pom_counts,

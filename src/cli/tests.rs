@@ -49,7 +49,7 @@ fn values_arrive() {
     let options = capture(
         "--scene a.toml --technique pom --shadow pom-soft --seed 18446744073709551615 --size 7x9 --field 31 --height h.png \
          --height-range -5,7.5 --albedo c.png --samples 4,20 --pom-counts texels --relief-bias on --pyramid-leaf nearest \
-         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --light-angle 2.5 --adapter llvm --backend gl -v \
+         --depth 0.25 --camera -1,2,-3,0,-.5,1e-3 --fov 30 --lod 2.5 --lod-exact off --light-angle 2.5 --adapter llvm --backend gl -v \
          --mesh torus --mesh-triangles 5000 --shell --displaced-depth \
          --frames 5 --dt 0.5 --warmup 9 --channels lod,height,lod",
     );
@@ -75,6 +75,7 @@ fn values_arrive() {
             technique: Some(Technique::Pom),
             shadow: Some(Shadow::PomSoft),
             lod: Some(Some(2.5)),
+            lod_keep_exact: Some(false),
             shading: None,
             samples: Some([4, 20]),
             pom_counts: Some(PomCounts::Texels),
@@ -166,6 +167,7 @@ fn nonsense_is_refused_in_one_sentence() {
         ("live --split pom:hrad", "did you mean `hard`"),
         ("live --split pom@2", "--split"),
         ("live --shadow soft", "none, steep, hard, pom-soft, cone and area"),
+        ("live --lod-exact yes", "known are on and off"),
         ("live --backend vulcan", "did you mean `vulkan`"),
         ("live --adapter=", "--adapter"),
         ("capture --out DIR --channels color,hight", "did you mean `height`"),

@@ -1,6 +1,7 @@
 //! Noise: procedural heights, each a closed form of place, seed and time.
 //!
-//! Reads nothing, writes every texel of [`NoiseHeights`]: 4 bytes a texel. Time is reduced here, in f64, to phases and lattice cells, so that
+//! Reads nothing, writes every texel of [`NoiseHeights`]: 4 bytes a texel. An evaluation at 512² takes lavapipe 3 ms of a core's time for
+//! columns, 11 for dunes, 12 for scales, 4 a wheel and 5 an octave (200 of them, user time). Time is reduced here, in f64, to phases and lattice cells, so that
 //! the shader's f32 is as fine after a million seconds as at the start. Shaders: `shaders/field/noise.wgsl` and the patterns beside it.
 //! Specification: [`crate::reference::noise`].
 

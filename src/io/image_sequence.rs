@@ -98,9 +98,10 @@ pub fn files(place: &Path) -> Result<Vec<PathBuf>, SequenceError> {
         let Some(name) = name.to_str() else { continue };
         let numbered = match &wanted {
             Some(wanted) => wanted.matches(name),
+            // What some systems hide beside each image is none.
             None => Numbered::split(name).filter(|numbered| {
                 let ending = numbered.suffix.to_ascii_lowercase();
-                ending.ends_with(".png") || ending.ends_with(".exr")
+                !name.starts_with('.') && (ending.ends_with(".png") || ending.ends_with(".exr"))
             }),
         };
         let Some((number, numbered)) = numbered.and_then(|numbered| Some((numbered.number()?, numbered))) else { continue };

@@ -99,6 +99,8 @@ pub struct SceneOverrides {
     pub shadow: Option<Shadow>,
     /// Level of detail from this mip level on; `Some(None)` is off.
     pub lod: Option<Option<f32>>,
+    /// Whether `exact` stays exact under level of detail.
+    pub lod_keep_exact: Option<bool>,
     /// What light does to it.
     pub shading: Option<Shading>,
     /// Fewest and most samples of a ray, of every technique that takes samples.
@@ -475,6 +477,9 @@ impl SceneOverrides {
         }
         if let Some(threshold) = self.lod {
             scene.lod.threshold = threshold;
+        }
+        if let Some(keep_exact) = self.lod_keep_exact {
+            scene.lod.keep_exact = keep_exact;
         }
         if let Some(shading) = self.shading {
             scene.material.model = shading;

@@ -19,17 +19,24 @@ const LEAN: f64 = 0.9;
 
 /// The share of the light that arrives.
 pub fn shadow(field: &HeightField, ray: &Ray, disc: &LightDisc) -> f64 {
+    shadow_above(field, ray, disc, 0.0)
+}
+
+/// The share of the light that arrives at a height above the surface: the shader lifts its rays off it, so that rounding does not make
+/// a surface shade itself.
+pub fn shadow_above(field: &HeightField, ray: &Ray, disc: &LightDisc, lift: f64) -> f64 {
     let (start, _) = way_to_light(field, ray);
+    let start = Line { height: start.height + lift, ..start };
     let [cosine, sine] = disc.elevation;
     let disc = if disc.radius * sine > LEAN * cosine { disc.tilted(disc.radius, LEAN) } else { *disc };
     // From its foot to its head, as the middle slice has them.
     let [foot, head] = [disc.horizon(), 1.0];
     let near = near(&start, &disc);
-    let close = horizon(field, &start, &disc, 0.0, [0.0, near]);
+    let close = horizon(field, &start, lift, &disc, 0.0, [0.0, near]);
     // Where the sides of the wedge come nearer than that, they count only if its middle meets something there.
     let begin = if close > foot { 0.0 } else { near };
     let visible = |[inner, outer, b]: [f64; 3], begin: f64| {
-        let horizon = horizon(field, &start, &disc, b, [begin, f64::INFINITY]);
+        let horizon = horizon(field, &start, lift, &disc, b, [begin, f64::INFINITY]);
         share(inner, outer, horizon.clamp(foot, head))
     };
     let [middle, left, right] = SLICES;
@@ -47,8 +54,8 @@ fn near(start: &Line, disc: &LightDisc) -> f64 {
 }
 
 /// How high above the disc's centre the horizon stands in the slice at b, in radii: over part of the way, by the height that the
-/// ray to the middle of the slice climbs.
-fn horizon(field: &HeightField, start: &Line, disc: &LightDisc, b: f64, [begin, end]: [f64; 2]) -> f64 {
+/// ray to the middle of the slice climbs. The line starts `lift` above the surface.
+fn horizon(field: &HeightField, start: &Line, lift: f64, disc: &LightDisc, b: f64, [begin, end]: [f64; 2]) -> f64 {
     let [x, y, up] = disc.direction([0.0, b]);
     let middle = disc.line(start.lattice, start.height, [x, y, up]);
     // The slowest ray that counts leaves the highest height behind here.
@@ -59,8 +66,10 @@ fn horizon(field: &HeightField, start: &Line, disc: &LightDisc, b: f64, [begin, 
     let mut steepest = 0.0_f64;
     for stretch in level.stretches(field, begin, end) {
         // Height above the start over t, for t = stretch.t + s: at both ends, and at a crest between.
-        let [c, b, a] = if stretch.t == 0.0 { [0.0, stretch.gap[1], stretch.gap[2]] } else { stretch.gap };
-        let needed = |s: f64| if stretch.t + s > 0.0 { -(c + s * (b + s * a)) / (stretch.t + s) } else { -b };
+        let [c, b, a] = if stretch.t == 0.0 { [lift, stretch.gap[1], stretch.gap[2]] } else { stretch.gap };
+        // At its very start a line upon the surface has to clear its slope, and one above it nothing.
+        let at_start = if lift > 0.0 { f64::NEG_INFINITY } else { -b };
+        let needed = |s: f64| if stretch.t + s > 0.0 { -(c + s * (b + s * a)) / (stretch.t + s) } else { at_start };
         let mut candidates = vec![0.0, stretch.length];
         // c + b s + a s² = −needed (t + s) has its derivative vanish where a s² + 2 a t s + b t − c does.
         let (t, root) = (stretch.t, stretch.t * stretch.t - (b * stretch.t - c) / a);

@@ -28,7 +28,7 @@ pub use view::{View, ViewSet};
 
 use crate::field;
 use crate::gpu::{Binding, BindingLayout, Gpu};
-use crate::scene::Scene;
+use crate::scene::{Background, Scene};
 
 /// What a picture is made with: the parts that are chosen, not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,10 +54,16 @@ pub struct Choice {
     pub reflects: bool,
     /// Whether stamps may leave gloss and heat.
     pub marks: bool,
+    /// How many lights shine.
+    pub lights: u32,
+    /// Whether the sky is behind everything, not a studio.
+    pub sky_behind: bool,
+    /// Whether a number is shown instead of the picture.
+    pub views: bool,
 }
 
 impl Choice {
-    /// The cheapest, for what is no relief.
+    /// The cheapest.
     pub const PLAIN: Self = Self::tracing(Technique::Normal, Shadow::None);
 
     /// A technique and a shadow, where nobody looks at colours.
@@ -73,6 +79,9 @@ impl Choice {
             balls: false,
             reflects: false,
             marks: false,
+            lights: 1,
+            sky_behind: false,
+            views: false,
         }
     }
 
@@ -89,14 +98,24 @@ impl Choice {
             balls,
             reflects,
             marks,
+            // Validation refuses more lights than there is room for.
+            lights: scene.all_lights().len() as u32,
+            sky_behind: scene.light.background == Background::Sky,
             ..Self::tracing(trace.technique, trace.shadow)
         }
+    }
+
+    /// For what stands in a scene and is no relief.
+    pub fn beside(scene: &Scene) -> Self {
+        let Self { lights, sky_behind, .. } = Self::of(scene);
+        Self { lights, sky_behind, ..Self::PLAIN }
     }
 
     /// The same for a view of what it traces.
     #[must_use]
     pub const fn showing(self, shows: Shows) -> Self {
-        Self { with_truth: matches!(shows, Shows::Error), caps_level: matches!(shows, Shows::LevelCap), ..self }
+        let views = !matches!(shows, Shows::Picture | Shows::LevelCap);
+        Self { with_truth: matches!(shows, Shows::Error), caps_level: matches!(shows, Shows::LevelCap), views, ..self }
     }
 }
 
@@ -142,8 +161,16 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
 
 /// The `override`s that Rust owns in a composition of [`parts`], besides those of its entry points.
 pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
-    let switches = [("DETAIL", choice.detail), ("BALLS", choice.balls), ("REFLECTS", choice.reflects), ("MARKS", choice.marks)];
+    let switches = [
+        ("DETAIL", choice.detail),
+        ("BALLS", choice.balls),
+        ("REFLECTS", choice.reflects),
+        ("MARKS", choice.marks),
+        ("SKY_BEHIND", choice.sky_behind),
+        ("VIEWS", choice.views),
+    ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
+    constants.push(("LIGHTS", f64::from(choice.lights)));
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![
             ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),

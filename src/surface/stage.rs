@@ -164,7 +164,8 @@ impl Stage {
         let Seen { scene, camera, time_seconds, display } = *seen;
         let choice = Choice::of(scene).showing(display.shows);
         let view = View::new(scene, camera, time_seconds, image_size, display);
-        let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: Choice::PLAIN, triangles: 0..1, view }];
+        let beside = Choice::beside(scene);
+        let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: beside, triangles: 0..1, view }];
         match &self.mesh {
             None if choice.technique == Technique::Mesh => {
                 draws.push(Draw { geometry: Geometry::Micropolygons, choice, triangles: 0..2, view: View { planar: 2, ..view } });
@@ -190,7 +191,7 @@ impl Stage {
             }
         }
         if !scene.balls.is_empty() {
-            draws.push(Draw { geometry: Geometry::Balls, choice: Choice::PLAIN, triangles: 0..1, view });
+            draws.push(Draw { geometry: Geometry::Balls, choice: beside, triangles: 0..1, view });
         }
         draws
     }

@@ -38,6 +38,7 @@ fn a_series_is_found_by_folder_pattern_and_star_in_the_order_of_its_numbers() {
     // Nine to eleven: the order of numbers is not that of names.
     series(folder.path(), 9..12, |number| format!("depth_{number}.png"));
     fs::write(folder.path().join("notes 2.txt"), "not an image").expect("it can be written");
+    fs::write(folder.path().join("._depth_9.png"), "hidden by another system").expect("it can be written");
     let expected = ["depth_9.png", "depth_10.png", "depth_11.png"];
     for place in ["", "depth_%d.png", "depth_*.png", "depth_%01d.png"] {
         let found = files(&folder.path().join(place)).unwrap_or_else(|error| panic!("{place}: {error}"));

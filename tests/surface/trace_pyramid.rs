@@ -41,7 +41,7 @@ fn adversarial_rays_meet_the_same_column_as_without_a_pyramid() {
             total.add(tally);
         }
     }
-    println!("{} of {} off", total.off, total.rays);
+    println!("of {} rays {} at a sample's border, {} tangent", total.rays, total.at_border, total.tangent);
     assert_eq!(total.wrong.len(), 0);
 }
 

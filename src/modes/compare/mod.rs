@@ -6,6 +6,7 @@
 mod bench;
 pub mod check;
 mod curves;
+mod equal_error;
 mod flip;
 mod heat;
 mod metrics;

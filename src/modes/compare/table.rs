@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 
+use super::equal_error;
 use crate::cli::Truth;
 use crate::io::manifest::Adapter;
 use crate::modes::statistics::Steps;
@@ -210,6 +211,7 @@ impl Table {
             }
             text.push('\n');
             text.push_str(&aligned(group));
+            text.push_str(&equal_error::sentences(group));
             rows = rest;
         }
         text
