@@ -10,10 +10,11 @@ use crate::camera::Camera;
 use crate::clock::{StepSeconds, Tick};
 use crate::field::bins::BinError;
 use crate::field::derive::{Derivation, Derive, DeriveSet};
+use crate::field::groundwork::Groundwork;
 use crate::field::sequence::Images;
 use crate::field::source::{self, Health, Source, State};
-use crate::field::stamp::{StampSet, Stamps};
-use crate::field::{self, Cover, Field, Region, Stack, base, normal_mips, normals, pyramid, stack, stamp};
+use crate::field::stamp::StampImage;
+use crate::field::{self, Cover, Field, Region, Stack, base, material, normal_mips, normals, pyramid, stack};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::mesh::{Mesh, shapes};
 use crate::present::{Present, PresentSet};
@@ -37,6 +38,8 @@ pub struct Start {
     pub mesh: Option<Mesh>,
     /// The picture over it, if any.
     pub colours: Option<ColourImage>,
+    /// The images that its stamps may have for their form.
+    pub images: Vec<StampImage>,
     /// What each of the reliefs beside it starts from, as the scene that it is alone.
     pub reliefs: Vec<Start>,
 }
@@ -44,11 +47,18 @@ pub struct Start {
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start =
-            Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, reliefs: Vec::new() };
+        let mut start = Self {
+            scene: scene.clone(),
+            material: vec![0; heights.len()],
+            heights,
+            mesh,
+            colours: None,
+            images: Vec::new(),
+            reliefs: Vec::new(),
+        };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
-            start.material[texel] = base::POST_MATERIAL;
+            start.material[texel] = material::POST;
         }
         start
     }
@@ -76,6 +86,11 @@ impl Start {
     /// The same beside these reliefs, as many as the scene has.
     pub fn with_reliefs(self, reliefs: Vec<Start>) -> Self {
         Self { reliefs, ..self }
+    }
+
+    /// The same with images for its stamps.
+    pub fn with_images(self, images: Vec<StampImage>) -> Self {
+        Self { images, ..self }
     }
 }
 
@@ -147,8 +162,7 @@ pub struct Frame {
     /// The view of the right side, where the picture is split.
     right_view_set: ViewSet,
     stack: Stack,
-    stamps: Stamps,
-    stamp_set: StampSet,
+    groundwork: Groundwork,
     derive: Derive,
     derive_set: DeriveSet,
     /// One for each choice that was ever shown: switching back costs nothing.
@@ -172,7 +186,6 @@ pub struct Frame {
 /// What the field's passes of one frame touched, for the account of its bytes.
 #[derive(Clone, Copy, Debug, Default)]
 struct Traffic {
-    stamped_texels: u64,
     derived_texels: u64,
 }
 
@@ -194,8 +207,9 @@ impl Frame {
         let view_layout = view::layout(gpu);
         let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
         let stack = Stack::new(gpu, &field, &scene)?;
-        let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
-        let (stamp_set, derive_set) = (stamps.bind(gpu, &field), derive.bind(gpu, &field));
+        let groundwork = Groundwork::new(gpu, &field, &scene, &start.images)?;
+        let derive = Derive::new(gpu)?;
+        let derive_set = derive.bind(gpu, &field);
         let reliefs = Stills::new(gpu, &derive, start)?;
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
@@ -208,8 +222,7 @@ impl Frame {
             view_set,
             right_view_set,
             stack,
-            stamps,
-            stamp_set,
+            groundwork,
             derive,
             derive_set,
             surfaces: HashMap::new(),
@@ -233,6 +246,7 @@ impl Frame {
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
         self.field.material.write(gpu, &start.material);
+        self.groundwork.reset(gpu, &start.heights);
         self.stack.reset(gpu, &self.scene);
         self.reliefs.reset(gpu, start);
     }
@@ -251,7 +265,7 @@ impl Frame {
             let set = surface.bind(gpu, &self.field);
             surfaces.insert(choice, (surface, set));
         }
-        let (stamps, derive) = (Stamps::new(gpu)?, Derive::new(gpu)?);
+        let derive = Derive::new(gpu)?;
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
         if let Some(message) = gpu.take_error() {
@@ -263,10 +277,11 @@ impl Frame {
         }
         self.reliefs.reload(gpu)?;
         self.stack.reload(gpu, &self.field)?;
+        self.groundwork.reload(gpu)?;
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
         self.surfaces = surfaces;
-        (self.stamps, self.derive, self.present) = (stamps, derive, present);
+        (self.derive, self.present) = (derive, present);
         Ok(())
     }
 
@@ -393,6 +408,11 @@ impl Frame {
         self.stage.as_ref()
     }
 
+    /// What is done to the relief and its material.
+    pub fn groundwork(&self) -> &Groundwork {
+        &self.groundwork
+    }
+
     /// The scene that it shows.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -429,9 +449,8 @@ impl Frame {
         self.lay_colours(gpu, input.strokes.images.as_deref());
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         self.traffic = Traffic::default();
-        // Press this frame's stamps into the relief.
-        let pressed = self.stamps.record(recorder, &mut self.stamp_set, &input.strokes.presses)?;
-        self.traffic.stamped_texels = self.stamp_set.touched_texels();
+        // Press this frame's stamps into the relief, and let it heal and cool in between.
+        let pressed = self.groundwork.record(recorder, &self.field, input.tick, input.strokes)?;
         self.stack.relief_changed(&pressed, self.field.size);
         // Advance what moves over it by the steps that the clock owes, with what disturbs it.
         self.stack.advance(recorder, &self.scene, input.tick, input.strokes, self.field.size)?;
@@ -439,8 +458,8 @@ impl Frame {
         self.build_for(gpu, &input.display)?;
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         // Compose relief and sources into the height field proper …
-        let changed = self.stack.compose_top(recorder, &self.scene, self.field.size);
-        self.traffic.derived_texels = changed.iter().map(Region::area).sum();
+        let (changed, texels) = self.stack.compose_top(recorder, &self.scene, self.field.size);
+        self.traffic.derived_texels = texels;
         if !changed.is_empty() {
             self.derive(recorder, &changed);
         }
@@ -535,6 +554,7 @@ impl Frame {
     /// Takes over the numbers of [`Frame::states`], in their order; textures and buffers have been overwritten already.
     pub fn restore(&mut self, numbers: &[Vec<u64>]) {
         self.stack.restore(numbers.get(1..).unwrap_or_default());
+        self.groundwork.resume();
     }
 
     /// The source of this name, if the scene has it.
@@ -557,8 +577,9 @@ impl Frame {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
-        let reliefs = self.reliefs.memory_bytes() + self.stack.memory_bytes();
-        self.field.memory_bytes() + reliefs + self.radiance.memory_bytes() + stage + 4 * width * height
+        let beside = self.reliefs.memory_bytes() + stage;
+        let layers = self.field.memory_bytes() + self.groundwork.memory_bytes() + self.stack.memory_bytes();
+        layers + beside + self.radiance.memory_bytes() + 4 * width * height
     }
 
     /// Bytes that the field's passes of the last recorded frame read and wrote by design: see each pass's header. Halos, and the
@@ -566,7 +587,7 @@ impl Frame {
     pub fn field_traffic_bytes(&self) -> u64 {
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
         let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
-        self.stack.traffic_bytes() + self.traffic.stamped_texels * stamp::TEXEL_BYTES + self.traffic.derived_texels * derived
+        self.stack.traffic_bytes() + self.groundwork.traffic_bytes() + self.traffic.derived_texels * derived
     }
 
     /// Bytes that tracing and presenting one picture reads and writes by design, where a view ray takes so many steps.

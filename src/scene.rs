@@ -13,6 +13,7 @@ mod noise;
 mod reliefs;
 mod sequence;
 pub mod shallow_water;
+mod stamping;
 mod swing;
 mod techniques;
 mod text;
@@ -36,6 +37,7 @@ pub use noise::{
 pub use reliefs::{RELIEFS_MAX, Relief};
 pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
 pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
+pub use stamping::{Explosions, Healing, Imprint, Shots, Struck, Track, TrackMaker};
 pub use swing::Swing;
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
@@ -88,6 +90,18 @@ pub struct Scene {
     /// Seeded shots at the surface, if any.
     #[serde(default)]
     pub shots: Option<Shots>,
+    /// Seeded charges that go off in it, if any.
+    #[serde(default)]
+    pub explosions: Option<Explosions>,
+    /// Tracks that are laid in it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tracks: Vec<Track>,
+    /// Texts and images that are pressed into it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub imprints: Vec<Imprint>,
+    /// Whether it closes to its base.
+    #[serde(default)]
+    pub healing: Option<Healing>,
     /// How the surface is traced.
     #[serde(default)]
     pub trace: Trace,
@@ -166,6 +180,10 @@ pub enum Base {
     Bricks {},
     /// Rounded stones, the same that the `cobble` albedo colours.
     Cobbles {},
+    /// A brick wall, plastered, with a steel plate and a door of planks: the same that the `facade` albedo colours.
+    Facade {},
+    /// Drifted snow, the same that the `snow` albedo colours.
+    Snow {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
     /// Sand that rises from the sea in the south to dunes in the north.
@@ -260,21 +278,6 @@ pub struct Obstacle {
     /// Height of its top, 0 to 1.
     #[serde(default = "one")]
     pub top: f32,
-}
-
-/// Seeded shots, each a crater and its scorch.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Shots {
-    /// Shots a second.
-    pub per_second: f32,
-    /// Smallest and largest radius of a crater's rim, metres.
-    #[serde(deserialize_with = "exactly")]
-    pub radius_metres: [f32; 2],
-    /// Depth of a crater of the largest radius, metres.
-    pub depth_metres: f32,
-    /// How black the soot around it is, 0 to 1.
-    pub scorch: f32,
 }
 
 /// How the surface is traced.
@@ -416,6 +419,13 @@ fn exactly_or_none<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usiz
     exactly(deserializer).map(Some)
 }
 
+impl Scene {
+    /// In how many seconds what glows on it falls to 1/e; none where nothing glows.
+    pub fn cooling_seconds(&self) -> Option<f64> {
+        self.explosions.as_ref().map(|explosions| f64::from(explosions.cooling_seconds))
+    }
+}
+
 impl Default for Scene {
     fn default() -> Self {
         Self {
@@ -432,6 +442,10 @@ impl Default for Scene {
             noise: None,
             sequence: None,
             shots: None,
+            explosions: None,
+            tracks: Vec::new(),
+            imprints: Vec::new(),
+            healing: None,
             trace: Trace::default(),
             lod: Lod::default(),
             light: Light::default(),
@@ -482,12 +496,6 @@ impl Default for Wave {
 impl Default for Rain {
     fn default() -> Self {
         Self { drops_per_second: 24.0, radius_metres: 0.02, strength: 1.0 }
-    }
-}
-
-impl Default for Shots {
-    fn default() -> Self {
-        Self { per_second: 10.0, radius_metres: [0.012, 0.035], depth_metres: 0.03, scorch: 0.8 }
     }
 }
 

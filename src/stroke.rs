@@ -3,6 +3,12 @@
 //! Every random stroke has a number, and its own generator made from the seed and that number: what a stroke looks like depends
 //! neither on the strokes before it nor on how frames cut time into pieces. A warm-up of W frames and then N more are W + N.
 
+mod disturb;
+pub mod explosions;
+pub mod imprints;
+pub mod shots;
+pub mod tracks;
+
 use std::sync::Arc;
 
 use rand::rngs::Xoshiro256PlusPlus;
@@ -14,9 +20,9 @@ use crate::field::gas_bands::Bands;
 use crate::field::gas_emit::Puff;
 use crate::field::sequence::Images;
 use crate::field::shallow_water::{self, Event};
-use crate::field::stamp::{Blend, CRATER_RIM, Profile, Stamp};
+use crate::field::stamp::{Blend, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
-use crate::scene::{Gas, GasEmitters, Rain, Scene, Shots};
+use crate::scene::{Gas, GasEmitters, Rain, Scene};
 
 /// One thing done to the field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,12 +36,17 @@ pub enum Stroke {
     Puff(Puff),
     /// Something done to shallow water.
     Water(Event),
+    /// What follows belongs to the hand's stroke of this number: all that one press of the button does until it is released. Numbers
+    /// rise.
+    Number(u64),
+    /// The hand's last stroke is taken back, before anything is pressed.
+    Undo,
 }
 
 /// All that is done to the field in one frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
-    /// The stamps, in order.
+    /// The scene's own stamps, in the order of their times.
     pub presses: Vec<Stamp>,
     /// The impulses, each with the step of the frame before which it falls: 0 is the first.
     pub splashes: Vec<(u32, Impulse)>,
@@ -43,6 +54,12 @@ pub struct Strokes {
     pub puffs: Vec<(u32, Puff)>,
     /// What is done to shallow water, each with the step of the frame before which it happens.
     pub waters: Vec<(u32, Event)>,
+    /// The hand's stamps, pressed after the scene's: these can be undone.
+    pub hand: Vec<Stamp>,
+    /// Which stroke of the hand they belong to: see [`Stroke::Number`].
+    pub stroke_number: u64,
+    /// How many of the hand's last strokes are taken back, before anything is pressed.
+    pub undo: u32,
     /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
     pub images: Option<Arc<Images>>,
 }
@@ -51,7 +68,7 @@ impl Strokes {
     /// Adds what a hand did since the last frame: a splash falls before the frame's first step, or without one while time stands.
     pub fn push(&mut self, stroke: Stroke) {
         match stroke {
-            Stroke::Press(stamp) => self.presses.push(stamp),
+            Stroke::Press(stamp) => self.hand.push(stamp),
             Stroke::Splash(impulse) => self.splashes.push((0, impulse)),
             // Before those of the scene's own particles, which may fall later: the steps stay in order.
             Stroke::Puff(puff) => self.puffs.insert(0, (0, puff)),
@@ -60,13 +77,22 @@ impl Strokes {
                 let before = self.waters.partition_point(|(step, _)| *step == 0);
                 self.waters.insert(before, (0, event));
             }
+            Stroke::Number(number) => self.stroke_number = number,
+            Stroke::Undo => self.undo += 1,
         }
     }
 
-    /// What the scene itself does in the frame: its rain and its shots.
+    /// Adds all that a hand did to a scene since the last frame, and what that disturbs.
+    pub fn add_hand(&mut self, scene: &Scene, strokes: &[Stroke]) {
+        strokes.iter().for_each(|stroke| self.push(*stroke));
+        self.disturb_by_hand(scene);
+    }
+
+    /// What the scene itself does in the frame: its rain, its shots, whatever else it presses.
     pub fn of_scene(scene: &Scene, seed: u64, tick: &Tick) -> Self {
         let lattice = Lattice::of_scene(scene);
-        let mut strokes = Self::default();
+        let mut strokes =
+            Self { presses: presses_between(scene, seed, &lattice, tick.previous_seconds, tick.time_seconds), ..Self::default() };
         if let Some((wave, rain)) = scene.wave.as_ref().and_then(|wave| Some((wave, wave.rain.as_ref()?))) {
             let step_seconds = wave::step_seconds(wave, lattice.texel_metres);
             let owed = tick.owed(Simulation::Wave);
@@ -90,11 +116,41 @@ impl Strokes {
                 strokes.waters.extend(events.map(|event| (step, event)));
             }
         }
-        if let Some(shots) = &scene.shots {
-            strokes.presses.extend(shots_between(shots, seed, &lattice, tick.previous_seconds, tick.time_seconds));
-        }
+        strokes.disturb(scene, seed, tick);
         strokes
     }
+}
+
+/// Whether what happens at a time has happened at another, seconds: a frame that is due at its very time shows it, however products
+/// round.
+fn due(at_seconds: f64, now_seconds: f64) -> bool {
+    at_seconds <= now_seconds + 1e-9
+}
+
+/// The numbers k of what happens at (k + `phase`)/rate after one time and until another.
+fn numbers_between(rate: f64, phase: f64, after_seconds: f64, until_seconds: f64) -> std::ops::Range<u64> {
+    let happened = |seconds: f64| ((seconds + 1e-9) * rate - phase + 1.0).floor().max(0.0) as u64;
+    happened(after_seconds)..happened(until_seconds)
+}
+
+/// All stamps that a scene itself presses after one time and until another, seconds, in the order of their times.
+pub fn presses_between(scene: &Scene, seed: u64, lattice: &Lattice, after_seconds: f64, until_seconds: f64) -> Vec<Stamp> {
+    let mut presses = Vec::new();
+    if let Some(shots) = &scene.shots {
+        presses.extend(shots::between(shots, &scene.base, seed, lattice, after_seconds, until_seconds));
+    }
+    if let Some(explosions) = &scene.explosions {
+        presses.extend(explosions::between(explosions, seed, lattice, after_seconds, until_seconds));
+    }
+    for track in &scene.tracks {
+        presses.extend(tracks::between(track, lattice, scene.field.addressing, after_seconds, until_seconds));
+    }
+    for (number, imprint) in (0..).zip(&scene.imprints) {
+        presses.extend(imprints::between(imprint, number, lattice, after_seconds, until_seconds));
+    }
+    // Stable: of what happens at once, the order is that above.
+    presses.sort_by(|a, b| a.at_seconds.total_cmp(&b.at_seconds));
+    presses
 }
 
 /// The field's texels, as strokes see them.
@@ -112,6 +168,21 @@ impl Lattice {
     /// The lattice of a scene's field.
     pub fn of_scene(scene: &Scene) -> Self {
         Self { size: scene.field.size, texel_metres: scene.texel_metres(), depth_metres: f64::from(scene.plane.depth_metres) }
+    }
+
+    /// A point of the plane, metres along u and v from its upper left corner.
+    pub fn metres(&self, uv: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| uv[axis] * f64::from(self.size[axis]) * self.texel_metres)
+    }
+
+    /// Texels of a length in metres.
+    pub fn texels(&self, metres: f64) -> f32 {
+        (metres / self.texel_metres) as f32
+    }
+
+    /// Heights of a depth in metres.
+    pub fn heights(&self, metres: f64) -> f32 {
+        (metres / self.depth_metres) as f32
     }
 
     /// A point of the plane in lattice coordinates.
@@ -197,43 +268,6 @@ pub fn emitted_in_step(
     })
 }
 
-/// The shots after one time and until another, both seconds: shot k is fired at (k + ½)/rate.
-pub fn shots_between(
-    shots: &Shots,
-    seed: u64,
-    lattice: &Lattice,
-    after_seconds: f64,
-    until_seconds: f64,
-) -> impl Iterator<Item = Stamp> + use<> {
-    // As the clock's: a frame that is due at a shot's very time shows it, however the product rounds.
-    let fired = |seconds: f64| (seconds * f64::from(shots.per_second) + 0.5 + 1e-9).floor().max(0.0) as u64;
-    let (shots, lattice) = (shots.clone(), *lattice);
-    (fired(after_seconds)..fired(until_seconds)).map(move |number| {
-        let mut random = Random::new(seed, Stream::Shots, number);
-        shot(&shots, &lattice, [random.unit(), random.unit()], &mut random)
-    })
-}
-
-/// One shot at a point of the plane: a crater with an irregular rim, its scorch, and bare material within.
-pub fn shot(shots: &Shots, lattice: &Lattice, uv: [f64; 2], random: &mut Random) -> Stamp {
-    let [smallest, largest] = shots.radius_metres.map(f64::from);
-    // Small ones are common: the square of a uniform number.
-    let rim_metres = smallest + (largest - smallest) * random.unit().powi(2);
-    let depth_metres = f64::from(shots.depth_metres) * rim_metres / largest;
-    Stamp {
-        centre: lattice.at(uv),
-        radius: (rim_metres / CRATER_RIM / lattice.texel_metres) as f32,
-        height: (depth_metres / lattice.depth_metres) as f32,
-        profile: Profile::Crater,
-        blend: Blend::Add,
-        irregularity: random.between(0.35, 0.65) as f32,
-        phase: random.between(0.0, std::f64::consts::TAU) as f32,
-        soot: shots.scorch,
-        bare: 1.0,
-        ..Stamp::default()
-    }
-}
-
 /// The discs that a stress test presses in a frame. Even frames press them in, odd frames lift the same ones again: the load is
 /// that of every frame, and the field neither saturates nor wears out.
 pub fn stress_discs(seed: u64, frame: u64, count: u32, radius: f32, size: [u32; 2]) -> impl Iterator<Item = Stamp> {
@@ -260,6 +294,8 @@ pub enum Stream {
     Gas,
     /// Drops on shallow water.
     Drops,
+    /// A scene's charges.
+    Explosions,
 }
 
 /// The random numbers of one stroke. Xoshiro256++ and the conversion below are fixed for ever; `rand`'s distributions are not.
@@ -294,25 +330,24 @@ impl Random {
 mod tests {
     use super::*;
     use crate::clock::{Clock, Pace};
-    use crate::scene;
+    use crate::scene::{self, Shots};
 
-    fn scene() -> Scene {
-        Scene {
-            wave: Some(scene::Wave { rain: Some(Rain::default()), ..scene::Wave::default() }),
-            shots: Some(Shots::default()),
-            ..Scene::default()
-        }
+    fn wall() -> Scene {
+        Scene { shots: Some(Shots::default()), ..Scene::default() }
+    }
+
+    fn water() -> Scene {
+        Scene { wave: Some(scene::Wave { rain: Some(Rain::default()), ..scene::Wave::default() }), ..Scene::default() }
     }
 
     /// All strokes of a run, each with the number of the step before which it falls.
-    fn run(seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
-        let scene = scene();
-        let step = wave::step_seconds(scene.wave.as_ref().unwrap(), Lattice::of_scene(&scene).texel_metres);
-        let mut clock = Clock::new([Some(step), None, None]);
+    fn run(scene: &Scene, seed: u64, dt_seconds: f64, frames: u32) -> (Vec<Stamp>, Vec<(u64, Impulse)>) {
+        let step = scene.wave.as_ref().map(|wave| wave::step_seconds(wave, Lattice::of_scene(scene).texel_metres));
+        let mut clock = Clock::new([step, None, None]);
         let (mut presses, mut splashes) = (Vec::new(), Vec::new());
         for _ in 0..frames {
             let tick = clock.advance(Pace::Fixed { dt_seconds });
-            let strokes = Strokes::of_scene(&scene, seed, &tick);
+            let strokes = Strokes::of_scene(scene, seed, &tick);
             presses.extend(strokes.presses);
             splashes.extend(
                 strokes
@@ -327,10 +362,13 @@ mod tests {
     #[test]
     fn frames_do_not_change_what_falls_and_when() {
         // 12 s cut into frames of 1/60 s and of 1/25 s.
-        let (sixty, twenty_five) = (run(7, 1.0 / 60.0, 721), run(7, 1.0 / 25.0, 301));
+        let cut = |scene: &Scene| [run(scene, 7, 1.0 / 60.0, 721), run(scene, 7, 1.0 / 25.0, 301)];
+        let [sixty, twenty_five] = cut(&wall());
+        assert_eq!(sixty, twenty_five);
+        assert_eq!(sixty.0.iter().filter(|stamp| stamp.profile == Profile::Crater).count(), 120);
+        let [sixty, twenty_five] = cut(&water());
         assert_eq!(sixty, twenty_five);
         // The last of the 288 intervals is cut by the last step that is owed.
-        assert_eq!(sixty.0.len(), 120);
         assert!((287..=288).contains(&sixty.1.len()));
     }
 
@@ -351,28 +389,52 @@ mod tests {
     }
 
     #[test]
+    fn a_shot_into_water_makes_a_ring_and_no_hole_and_frames_do_not_change_when() {
+        let mut scene = water();
+        scene.wave.as_mut().unwrap().rain = None;
+        scene.shots = Some(Shots::default());
+        let [sixty, twenty_five] = [run(&scene, 7, 1.0 / 60.0, 721), run(&scene, 7, 1.0 / 25.0, 301)];
+        assert_eq!(sixty, twenty_five);
+        assert!(sixty.0.is_empty());
+        assert!((119..=120).contains(&sixty.1.len()), "{}", sixty.1.len());
+        // A post is no water: what hits it breaks it.
+        let post = scene::Obstacle { centre: [0.5, 0.5], half_extent_metres: [2.0, 2.0], corner_metres: 0.0, top: 1.0 };
+        scene.wave.as_mut().unwrap().obstacles.push(post);
+        let (presses, splashes) = run(&scene, 7, 1.0 / 60.0, 721);
+        assert!(splashes.is_empty());
+        assert_eq!(presses.iter().filter(|stamp| stamp.profile == Profile::Crater).count(), 120);
+        // The hand's are no other.
+        let mut strokes = Strokes { hand: presses, ..Strokes::default() };
+        strokes.disturb_by_hand(&scene);
+        assert!(!strokes.hand.is_empty() && strokes.splashes.is_empty());
+        scene.wave.as_mut().unwrap().obstacles.clear();
+        strokes.disturb_by_hand(&scene);
+        assert!(strokes.hand.is_empty() && strokes.splashes.len() == 120);
+    }
+
+    #[test]
     fn another_seed_is_another_run() {
-        let (a, b) = (run(1, 1.0 / 60.0, 60), run(2, 1.0 / 60.0, 60));
-        assert!(a.0.iter().all(|stamp| !b.0.contains(stamp)));
-        assert!(a.1.iter().all(|(_, impulse)| b.1.iter().all(|(_, other)| impulse != other)));
+        let [a, b] = [1, 2].map(|seed| run(&wall(), seed, 1.0 / 60.0, 60).0);
+        assert!(a.iter().all(|stamp| !b.contains(stamp)));
+        let [a, b] = [1, 2].map(|seed| run(&water(), seed, 1.0 / 60.0, 60).1);
+        assert!(a.iter().all(|(_, impulse)| b.iter().all(|(_, other)| impulse != other)));
     }
 
     #[test]
     fn every_seed_changes_something_within_eight_frames_and_nothing_in_the_first() {
         for seed in 0..500 {
-            let (presses, splashes) = run(seed, 1.0 / 60.0, 8);
-            assert!(!presses.is_empty() && !splashes.is_empty(), "seed {seed}");
-            let (presses, splashes) = run(seed, 1.0 / 60.0, 1);
-            assert!(presses.is_empty() && splashes.is_empty(), "seed {seed}");
+            for (frames, moves) in [(8, true), (1, false)] {
+                assert_eq!(!run(&wall(), seed, 1.0 / 60.0, frames).0.is_empty(), moves, "seed {seed}");
+                assert_eq!(!run(&water(), seed, 1.0 / 60.0, frames).1.is_empty(), moves, "seed {seed}");
+            }
         }
     }
 
     #[test]
     fn shots_and_drops_come_when_they_are_due() {
-        let scene = scene();
+        let scene = water();
         let lattice = Lattice::of_scene(&scene);
-        let shots = Shots { per_second: 10.0, ..Shots::default() };
-        let fired = |until| shots_between(&shots, 1, &lattice, 0.0, until).count();
+        let fired = |until| numbers_between(10.0, 0.5, 0.0, until).count();
         // The first at 0.05 s, which is the third frame's very time at 60 Hz; then one every tenth of a second.
         assert_eq!([0.0, 2.0 / 60.0, 3.0 / 60.0, 0.149, 0.15, 1.0].map(fired), [0, 0, 1, 1, 2, 10]);
         // Each drop falls in its own interval, and no interval goes without.

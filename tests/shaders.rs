@@ -2,13 +2,15 @@
 
 use std::mem::{offset_of, size_of};
 
-use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
+use rilievo::field::blocks::Blocks;
 use rilievo::field::compose::{ComposeLayer, ComposeParams};
+use rilievo::field::cool::CoolParams;
 use rilievo::field::gas::GasParams;
 use rilievo::field::gas_emit::{GasBatch, GasPuff};
 use rilievo::field::gas_force::GasRow;
 use rilievo::field::gas_project::GasLevel;
+use rilievo::field::heal::HealParams;
 use rilievo::field::noise::{
     NoiseColumns, NoiseDunes, NoiseFractal, NoiseGear, NoiseGears, NoiseLattice, NoiseParams, NoiseScales, PATTERNS,
 };
@@ -18,7 +20,7 @@ use rilievo::field::pyramid::PyramidParams;
 use rilievo::field::shallow_water::{
     Event, ShallowWaterBatch, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSpell,
 };
-use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
+use rilievo::field::stamp::{Blend, Profile, StampExtra, StampParams, StampRecord, Stamps};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
 use rilievo::present::{PresentParams, PresentSide};
@@ -37,7 +39,7 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 17] = [
+    let fixed: [&[&str]; 19] = [
         &["common/region", "field/compose"],
         &["common/gas", "field/gas_activity"],
         &["common/gas", "field/gas_advect"],
@@ -48,7 +50,9 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
-        &["common/noise", "field/stamp"],
+        &["common/noise", "common/material", "common/profile", "common/marks", "field/stamp"],
+        &["common/material", "field/cool"],
+        &["common/material", "field/heal"],
         &["field/wave"],
         &["common/shallow_water", "field/shallow_water"],
         &["common/shallow_water", "field/shallow_water_disturb"],
@@ -100,7 +104,7 @@ fn every_composition_parses_and_validates() {
 fn an_error_names_the_part_and_its_own_line() {
     let mut library = Library::embedded();
     library.replace("field/normals", "// one\n// two\nfn broken() -> f32 { return missing; }\n".to_owned());
-    let composition = library.compose(&["common/region", "field/normals"]).expect("both parts exist");
+    let composition = library.compose(&["common/noise", "field/normals"]).expect("both parts exist");
     let error = composition.validate().expect_err("`missing` is nowhere defined").to_string();
     assert!(error.starts_with("shaders/field/normals.wgsl:3: "), "{error}");
     assert!(library.compose(&["field/nonsense"]).is_err());
@@ -207,6 +211,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 repeat,
                 slab_count,
                 own_slab,
+                moment,
+                glow,
                 detail,
                 slabs,
                 slab_penumbra,
@@ -220,10 +226,12 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("ViewLight", layout!(ViewLight { toward, casts_shadow, radiance })),
         ("Matter", layout!(Matter { albedo, specular, shininess, glow, roughness, metallic, reflection })),
         ("Lit", layout!(Lit { matter, normal, toward_eye, toward_light })),
-        ("Region", layout!(Region { origin, extent })),
-        ("ComposeParams", layout!(ComposeParams { region, size, tiles_per_row, layers })),
+        ("Blocks", layout!(Blocks { first, count })),
+        ("ComposeParams", layout!(ComposeParams { blocks, size, tiles_per_row, layers })),
         ("ComposeLayer", layout!(ComposeLayer { amplitude, blend })),
-        ("NormalsParams", layout!(NormalsParams { region, slope_per_height, size, wrap })),
+        ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size, wrap })),
+        ("NormalMipsParams", layout!(NormalMipsParams { blocks, source_size, size, last_weight })),
+        ("PyramidParams", layout!(PyramidParams { blocks, source_size, size, wrap })),
         ("NoiseParams", layout!(NoiseParams { size, texel_metres, count, salt, wrap, field_metres })),
         ("NoiseLattice", layout!(NoiseLattice { scale, fraction, cell, period, slices, slice_fraction, weight, salt })),
         ("NoiseFractal", layout!(NoiseFractal { contrast, fold })),
@@ -235,15 +243,34 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("NoiseGears", layout!(NoiseGears { half_module, edge, top })),
         ("NoiseGear", layout!(NoiseGear { centre, rotation, teeth, spokes })),
         ("NoiseDunes", layout!(NoiseDunes { turns, phase, crest, meander, variety, ripple_turns, ripple_phase, ripple_height })),
-        ("NormalMipsParams", layout!(NormalMipsParams { region, source_size, size, last_weight })),
-        ("PyramidParams", layout!(PyramidParams { region, source_size, size, wrap })),
         ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
         ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),
         ("Channel", layout!(Channel { position, steps, normal, height, uv, visibility, lod })),
-        ("StampParams", layout!(StampParams { size, tile_count })),
-        ("StampRecord", layout!(StampRecord { height, level, alpha, irregularity, phase, soot, bare, profile, blend })),
+        ("StampParams", layout!(StampParams { size, tile_count, first_tile })),
+        ("StampRecord", layout!(StampRecord { height, level, alpha, profile, blend })),
+        (
+            "StampExtra",
+            layout!(StampExtra {
+                phase,
+                span,
+                joins,
+                axis,
+                half_extent,
+                image_origin,
+                image_size,
+                irregularity,
+                soot,
+                bare,
+                gloss,
+                heat,
+                moment,
+                along,
+                tread,
+                lugs_per_texel,
+            }),
+        ),
         ("StampTile", layout!(Tile { tile, first, count })),
         ("StampMember", layout!(Member { centre, radius, disc })),
         (
@@ -296,6 +323,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("ShallowWaterBatch", layout!(ShallowWaterBatch { first, count })),
         ("ShallowWaterBody", layout!(ShallowWaterBody { low, high, level })),
         ("ShallowWaterEvent", layout!(Event { centre, radius, kind, metres, foam })),
+        ("HealParams", layout!(HealParams { size, first_tile, tile_count, kept, closes, soot, gloss })),
+        ("CoolParams", layout!(CoolParams { size, moment })),
         ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
         ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
         ("WaveTile", layout!(Tile { tile, first, count })),
@@ -352,7 +381,7 @@ fn no_shader_has_a_uniform_buffer() {
 /// The numbers by which Rust names the choices of a stamp are those that its shader compares with.
 #[test]
 fn the_choices_of_a_stamp_have_the_same_numbers_on_both_sides() {
-    let module = module(&["common/noise".to_owned(), "field/stamp".to_owned()]);
+    let module = module(&Stamps::PARTS.map(str::to_owned));
     let profiles = Profile::ALL.map(|profile| (format!("STAMP_{profile:?}").to_uppercase(), profile as u32));
     let blends = Blend::ALL.map(|blend| (format!("STAMP_{blend:?}").to_uppercase(), blend as u32));
     for (name, number) in profiles.into_iter().chain(blends) {

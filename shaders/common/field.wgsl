@@ -3,7 +3,7 @@
 //   height        r32float         1 = reference surface, 0 = deepest; texel centres at integer lattice positions
 //   pyramid       r32float, mips   upper bound of the bilinear surface over a node
 //   normal_map    rgba16float, mips  level 0: unit normal in field space, height; above it their means
-//   material_map  r32uint          unorm8 ×4: soot, bare, post, 0
+//   material_map  r32uint          soot, bare, post, gloss, heat: see common/material.wgsl
 //   cover_map     rgba16float      what a simulation lays over the surface, for its albedo; 1×1 where none does
 //
 // Composed after common/view.wgsl.

@@ -115,6 +115,8 @@ struct View {
     repeat: vec2f,               // how often the plane shows the field along u and v
     slab_count: u32,
     own_slab: u32,               // that of the relief that is drawn
+    moment: f32,                 // of the clock of heat: see common/material.wgsl
+    glow: f32,                   // radiance of what glows fully
     detail: ViewDetail,
     slabs: array<Slab, 8>,
     slab_penumbra: f32,          // tangent of half the angle of the light's disc, as slabs see it

@@ -8,7 +8,7 @@
 // 4 bytes and 4 more a layer in, 4 out a texel. Specification: src/reference/compose.rs. Composed after common/region.wgsl.
 
 struct ComposeParams {
-    region: Region,     // whole tiles, cut at the field's border
+    blocks: Blocks,     // its tiles
     size: vec2u,        // of the field, texels
     tiles_per_row: u32,
     layers: array<ComposeLayer, 4>,
@@ -38,6 +38,11 @@ const COMPOSE_REPLACE: u32 = 4u;
 @group(1) @binding(5) var layer_3: texture_2d<f32>;
 @group(1) @binding(6) var composed: texture_storage_2d<r32float, write>;
 @group(1) @binding(7) var<storage, read_write> clipped: array<u32>;
+@group(1) @binding(8) var<storage, read> block_list: array<u32>;
+
+fn listed_block(index: u32) -> u32 {
+    return block_list[index];
+}
 
 var<workgroup> clipped_here: atomic<u32>;
 
@@ -74,12 +79,14 @@ fn compose_blend(layer: ComposeLayer, below: f32, value: f32) -> f32 {
 
 @compute @workgroup_size(TILE, TILE)
 fn compose(
-    @builtin(workgroup_id) tile: vec3u,
-    @builtin(global_invocation_id) id: vec3u,
-    @builtin(local_invocation_index) local: u32,
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) local_index: u32,
 ) {
-    let texel = params.region.origin + id.xy;
-    if all(id.xy < params.region.extent) {
+    let tile = block_of(params.blocks, workgroup, workgroups);
+    let texel = tile * TILE + local.xy;
+    if all(texel < params.size) {
         var value = textureLoad(beneath, texel, 0).r;
         if LAYERS > 0u {
             value = compose_blend(params.layers[0], value, textureLoad(layer_0, texel, 0).r);
@@ -104,9 +111,8 @@ fn compose(
     }
     if AT_TOP {
         workgroupBarrier();
-        if local == 0u {
-            let first = params.region.origin / TILE + tile.xy;
-            clipped[first.y * params.tiles_per_row + first.x] = atomicLoad(&clipped_here);
+        if local_index == 0u && all(tile * TILE < params.size) {
+            clipped[tile.y * params.tiles_per_row + tile.x] = atomicLoad(&clipped_here);
         }
     }
 }

@@ -10,7 +10,7 @@
 // common/region.wgsl.
 
 struct NormalMipsParams {
-    region: Region,     // texels of the level that is written
+    blocks: Blocks,     // of the level that is written
     source_size: vec2u,
     size: vec2u,
     last_weight: vec2f, // how wide and high the source's last texel is, in widths and heights of its others
@@ -22,14 +22,23 @@ override WORKGROUP_Y: u32;
 @group(1) @binding(0) var<storage, read> params: NormalMipsParams;
 @group(1) @binding(1) var source: texture_2d<f32>;
 @group(1) @binding(2) var normal: texture_storage_2d<rgba16float, write>;
+@group(1) @binding(3) var<storage, read> block_list: array<u32>;
+
+fn listed_block(index: u32) -> u32 {
+    return block_list[index];
+}
 
 // The same parents as the pyramid's: two children an axis, and the last texel takes the remainder.
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn average(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= params.region.extent) {
+fn average(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    let texel = block_of(params.blocks, workgroup, workgroups) * vec2u(WORKGROUP_X, WORKGROUP_Y) + local.xy;
+    if any(texel >= params.size) {
         return;
     }
-    let texel = params.region.origin + id.xy;
     let first = 2u * texel;
     let end = select(first + 2u, params.source_size, texel == params.size - 1u);
     let last = params.source_size - 1u;

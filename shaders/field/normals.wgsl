@@ -6,7 +6,7 @@
 // 4 bytes in, 8 out a texel, the halo apart. Specification: src/reference/normals.rs. Composed after common/region.wgsl.
 
 struct NormalsParams {
-    region: Region,
+    blocks: Blocks,
     slope_per_height: vec2f, // depth over the texel's width and height
     size: vec2u,             // of the field, texels
     wrap: u32,               // 1 where the field wraps, 0 where it clamps
@@ -18,6 +18,11 @@ override WORKGROUP_Y: u32;
 @group(1) @binding(0) var<storage, read> params: NormalsParams;
 @group(1) @binding(1) var height: texture_2d<f32>;
 @group(1) @binding(2) var normal: texture_storage_2d<rgba16float, write>;
+@group(1) @binding(3) var<storage, read> block_list: array<u32>;
+
+fn listed_block(index: u32) -> u32 {
+    return block_list[index];
+}
 
 // The neighbour before and after a texel of an axis.
 fn neighbours(texel: u32, size: u32) -> vec2u {
@@ -31,11 +36,15 @@ fn height_at(x: u32, y: u32) -> f32 {
 }
 
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn normals(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= params.region.extent) {
+fn normals(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    let texel = block_of(params.blocks, workgroup, workgroups) * vec2u(WORKGROUP_X, WORKGROUP_Y) + local.xy;
+    if any(texel >= params.size) {
         return;
     }
-    let texel = params.region.origin + id.xy;
     let x = neighbours(texel.x, params.size.x); // west, east
     let y = neighbours(texel.y, params.size.y); // north, south
     let nw = height_at(x.x, y.x);

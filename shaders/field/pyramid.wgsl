@@ -7,7 +7,7 @@
 // common/region.wgsl.
 
 struct PyramidParams {
-    region: Region,      // nodes of the level that is written
+    blocks: Blocks,      // of the level that is written
     source_size: vec2u,
     size: vec2u,
     wrap: u32,           // 1 where the field wraps, 0 where it clamps
@@ -19,6 +19,11 @@ override WORKGROUP_Y: u32;
 @group(1) @binding(0) var<storage, read> params: PyramidParams;
 @group(1) @binding(1) var source: texture_2d<f32>;
 @group(1) @binding(2) var bounds: texture_storage_2d<r32float, write>;
+@group(1) @binding(3) var<storage, read> block_list: array<u32>;
+
+fn listed_block(index: u32) -> u32 {
+    return block_list[index];
+}
 
 fn load(x: u32, y: u32) -> f32 {
     return textureLoad(source, vec2u(x, y), 0).r;
@@ -26,11 +31,15 @@ fn load(x: u32, y: u32) -> f32 {
 
 // Level 0: a cell's bound is the maximum of its four corners.
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn bound_cells(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= params.region.extent) {
+fn bound_cells(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    let low = block_of(params.blocks, workgroup, workgroups) * vec2u(WORKGROUP_X, WORKGROUP_Y) + local.xy;
+    if any(low >= params.size) {
         return;
     }
-    let low = params.region.origin + id.xy;
     let last = params.size - 1u;
     let beyond = select(last, vec2u(0u), params.wrap == 1u);
     let high = select(low + 1u, beyond, low == last);
@@ -40,11 +49,15 @@ fn bound_cells(@builtin(global_invocation_id) id: vec3u) {
 
 // Upper levels: the maximum over the children, two an axis; the last node takes the remainder, one or three.
 @compute @workgroup_size(WORKGROUP_X, WORKGROUP_Y)
-fn bound_parents(@builtin(global_invocation_id) id: vec3u) {
-    if any(id.xy >= params.region.extent) {
+fn bound_parents(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    let node = block_of(params.blocks, workgroup, workgroups) * vec2u(WORKGROUP_X, WORKGROUP_Y) + local.xy;
+    if any(node >= params.size) {
         return;
     }
-    let node = params.region.origin + id.xy;
     let first = 2u * node;
     let end = select(first + 2u, params.source_size, node == params.size - 1u);
     var bound = load(first.x, first.y);

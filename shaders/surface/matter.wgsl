@@ -20,7 +20,7 @@ struct Matter {
     reflection: f32,  // how much of its surroundings it mirrors, of what Fresnel allows
 }
 
-// What stamps left at a lattice position: soot, bare, post, 0, each 0 to 1, bilinear.
+// What stamps left at a lattice position: soot, bare, post, gloss, each 0 to 1, bilinear.
 fn stamped_matter(lattice: vec2f) -> vec4f {
     let cell = vec2i(floor(lattice));
     let f = fract(lattice);
@@ -32,7 +32,40 @@ fn stamped_matter(lattice: vec2f) -> vec4f {
 }
 
 fn stamped_texel(texel: vec2i) -> vec4f {
-    return unpack4x8unorm(textureLoad(material_map, texel, 0).r);
+    let bits = textureLoad(material_map, texel, 0).r;
+    let levels = vec4f(material_soot(bits), material_bare(bits), material_post(bits), material_gloss(bits));
+    return levels / vec4f(255.0, 255.0, 1.0, 31.0);
+}
+
+// How brightly what stamps left glows, of 1, bilinear.
+fn stamped_glow(lattice: vec2f) -> f32 {
+    let cell = vec2i(floor(lattice));
+    let f = fract(lattice);
+    let low = address(cell);
+    let high = address(cell + 1);
+    let north = mix(stamped_glow_texel(low), stamped_glow_texel(vec2i(high.x, low.y)), f.x);
+    let south = mix(stamped_glow_texel(vec2i(low.x, high.y)), stamped_glow_texel(high), f.x);
+    return mix(north, south, f.y);
+}
+
+fn stamped_glow_texel(texel: vec2i) -> f32 {
+    return material_glow(material_heat(textureLoad(material_map, texel, 0).r), view.moment);
+}
+
+// The material where stamps polished it, or left it hot.
+fn marked(matter: Matter, lattice: vec2f) -> Matter {
+    var after = matter;
+    let gloss = stamped_matter(lattice).a;
+    after.roughness = mix(matter.roughness, min(matter.roughness, 0.22), gloss);
+    after.specular = mix(matter.specular, max(matter.specular, 0.7), gloss);
+    after.shininess = mix(matter.shininess, max(matter.shininess, 60.0), gloss);
+    // A crust forms as it cools, and what glows longest is between its flakes. The hotter the whiter: green and blue fall faster than
+    // red.
+    let hot = stamped_glow(lattice);
+    let crust = smoothstep(0.62, 0.40, noise_over(plane_metres(lattice), 38.0, 97u));
+    let glow = hot * mix(crust, 1.0, 0.75 * hot);
+    after.glow += view.glow * glow * vec3f(1.0, 0.5 * glow * inverseSqrt(glow + 0.02), 0.22 * glow * glow);
+    return after;
 }
 
 // Metres along u and v from the upper left corner of the plane.

@@ -10,6 +10,8 @@ const CUT_DEPTH: f32 = 1e-3;
 
 // Whether the material mirrors its surroundings. Fixed when the pipeline is built, as DETAIL is.
 override REFLECTS: bool = true;
+// Whether stamps may have left gloss and heat. Fixed when the pipeline is built, too.
+override MARKS: bool = false;
 
 struct Shaded {
     ray: Ray,
@@ -86,7 +88,10 @@ fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     let lit = visibilities_at(hit.lattice, height, position, normal, reference, is_cut);
     let toward_eye = normalize(view.eye_world - position);
     let point = SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x);
-    let matter = detail_matter(covered_matter(point), over.w);
+    var matter = detail_matter(covered_matter(point), over.w);
+    if MARKS {
+        matter = marked(matter, hit.lattice);
+    }
 
     let open = sky_visibility(hit.lattice, height);
     var mirrored = vec3f(0.0);

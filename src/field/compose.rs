@@ -5,10 +5,10 @@
 //! regions given, and writes every texel of them; at the top also how many texels of each tile it had to clamp. 4 bytes and 4 more
 //! a layer in, 4 out a texel. Shader: `shaders/field/compose.wgsl`. Specification: [`crate::reference::compose`].
 
+use super::blocks::{BlockList, Blocks};
 use super::source::Heights;
 use super::{Field, Region};
-use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
 use crate::scene::Layer;
 
 /// Edge of a tile, texels: one workgroup, one count of clamped texels.
@@ -23,15 +23,12 @@ pub const LAYER_BYTES: u64 = 4;
 /// The most layers of one segment.
 pub const LAYERS_MAX: usize = 4;
 
-/// Regions that one frame may compose separately: as many as [`Dirty`](super::Dirty) keeps apart.
-pub const MAX_REGIONS: u32 = super::Dirty::MAX_REGIONS as u32;
-
 /// Uniforms of one dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ComposeParams {
-    /// The texels to compose: whole tiles, cut at the field's border.
-    pub region: Region,
+    /// The tiles to compose.
+    pub blocks: Blocks,
     /// Width and height of the field, texels.
     pub size: [u32; 2],
     /// Tiles in a row of the field.
@@ -67,7 +64,8 @@ pub struct Compose {
 
 /// The bindings of one segment.
 pub struct ComposeSet {
-    params: UniformSlots<ComposeParams>,
+    params: Uniform<ComposeParams>,
+    blocks: List<u32>,
     /// One for each choice of the layers' current textures: bit i of the index is layer i's.
     groups: Vec<wgpu::BindGroup>,
     size: [u32; 2],
@@ -86,7 +84,7 @@ impl Compose {
             "compose",
             wgpu::ShaderStages::COMPUTE,
             &[
-                Binding::UniformSlot,
+                Binding::Uniform,
                 float,
                 float,
                 float,
@@ -94,6 +92,7 @@ impl Compose {
                 float,
                 Binding::Storage(wgpu::TextureFormat::R32Float, wgpu::StorageTextureAccess::WriteOnly),
                 Binding::ReadWrite,
+                Binding::Read,
             ],
         );
         let constants = [("TILE", f64::from(TILE)), ("LAYERS", layers as f64), ("AT_TOP", f64::from(u8::from(at_top)))];
@@ -112,47 +111,49 @@ impl Compose {
         composed: &wgpu::TextureView,
     ) -> ComposeSet {
         debug_assert_eq!(layers.len(), self.layers);
-        let params = UniformSlots::new(gpu, "compose", MAX_REGIONS);
+        let params = Uniform::new(gpu, "compose");
+        let blocks = List::new(gpu, "compose's blocks", BlockList::capacity(std::iter::once(field.size), [TILE, TILE]));
         let groups = (0..1_usize << layers.len())
             .map(|currents| {
                 // A layer that is not there is never read; what lies beneath stands in for it.
                 let layer = |index: usize| layers.get(index).map_or(beneath, |layer| layer.views[currents >> index & 1]);
                 let textures = [beneath, layer(0), layer(1), layer(2), layer(3), composed];
-                let mut resources = vec![params.binding()];
+                let mut resources = vec![params.buffer.as_entire_binding()];
                 resources.extend(textures.map(wgpu::BindingResource::TextureView));
                 resources.push(field.clipped.as_entire_binding());
+                resources.push(blocks.buffer.as_entire_binding());
                 self.layout.bind(gpu, &resources)
             })
             .collect();
-        ComposeSet { params, groups, size: field.size }
+        ComposeSet { params, blocks, groups, size: field.size }
     }
 
-    /// Composes the regions, whole tiles of them, from layers of which each says which of its textures is current.
-    pub fn record(&self, recorder: &mut Recorder<'_>, set: &ComposeSet, regions: &[Region], layers: &[(Layer, usize)]) {
+    /// Composes the regions, whole tiles of them, from layers of which each says which of its textures is current; says how many
+    /// texels those have.
+    pub fn record(&self, recorder: &mut Recorder<'_>, set: &ComposeSet, regions: &[Region], layers: &[(Layer, usize)]) -> u64 {
         debug_assert_eq!(layers.len(), self.layers);
         let mut settings = [ComposeLayer::default(); LAYERS_MAX];
         for (setting, (layer, _)) in settings.iter_mut().zip(layers) {
             *setting = ComposeLayer::from(*layer);
         }
         let currents = layers.iter().enumerate().fold(0, |bits, (index, (_, current))| bits | current << index);
-        let params: Vec<_> = regions
-            .iter()
-            .map(|region| ComposeParams {
-                region: region.tiles(TILE, set.size),
-                size: set.size,
-                tiles_per_row: set.size[0].div_ceil(TILE),
-                layers: settings,
-                spare: 0,
-            })
-            .collect();
+        let mut list = BlockList::default();
+        let Some(dispatch) = list.plan(regions, set.size, [TILE, TILE]) else { return 0 };
+        set.blocks.write(recorder.gpu, &list.items);
+        let params = ComposeParams {
+            blocks: dispatch.blocks,
+            size: set.size,
+            tiles_per_row: set.size[0].div_ceil(TILE),
+            layers: settings,
+            spare: 0,
+        };
         set.params.write(recorder.gpu, &params);
         recorder.compute("compose", |pass| {
+            let [x, y] = dispatch.workgroups;
             pass.set_pipeline(&self.kernel.pipeline);
-            for (slot, params) in (0..).zip(&params) {
-                let [x, y] = workgroups(params.region.extent, [TILE, TILE]);
-                pass.set_bind_group(1, &set.groups[currents], &[set.params.offset(slot)]);
-                pass.dispatch_workgroups(x, y, 1);
-            }
+            pass.set_bind_group(1, &set.groups[currents], &[]);
+            pass.dispatch_workgroups(x, y, 1);
         });
+        dispatch.texels.min(Region::all(set.size).area())
     }
 }

@@ -7,8 +7,8 @@
 //!
 //! | name | format | bytes a texel | holds | writer | readers |
 //! |---|---|---|---|---|---|
-//! | relief | r32float | 4 | base height with every stamp pressed into it, unclamped | stamp | compose |
-//! | material | r32uint | 4 | four unorm8: soot, bare (freshly broken), post, 0 | stamp | surface |
+//! | relief | r32float | 4 | base height with every stamp pressed into it, unclamped | stamp, heal | compose |
+//! | material | r32uint | 4 | soot, bare (freshly broken), post, gloss, heat: bits of `material::Marks` | stamp, heal, cool | surface |
 //! | height | r32float | 4 | the height field, 0 to 1 | compose | normals, pyramid, surface |
 //! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
@@ -32,10 +32,13 @@
 //!
 //! A field that a simulation covers for its albedo has a row more: cover, rgba16float, 8 bytes a texel, 1×1 elsewhere. The bound on
 //! a still field, and on one with waves, is 40.
+//! A surface that heals has [`heal::CONTRACT`] besides.
 
 pub mod base;
 pub mod bins;
+pub mod blocks;
 pub mod compose;
+pub mod cool;
 pub mod derive;
 pub mod dirty;
 pub mod gas;
@@ -47,6 +50,9 @@ pub mod gas_force;
 pub mod gas_project;
 pub mod gas_show;
 pub mod gas_source;
+pub mod groundwork;
+pub mod heal;
+pub mod material;
 pub mod noise;
 pub mod normal_mips;
 pub mod normals;
@@ -57,6 +63,7 @@ pub mod shallow_water;
 pub mod source;
 pub mod stack;
 pub mod stamp;
+pub mod undo;
 pub mod wave;
 
 use wgpu::TextureUsages;
@@ -94,9 +101,9 @@ pub(crate) use roles;
 
 roles! {
     /// The base with every stamp pressed into it.
-    Relief = "relief", R32Float, mips false, LAYER, "height, unclamped", from "stamp", to "compose";
+    Relief = "relief", R32Float, mips false, LAYER, "height, unclamped", from "stamp, heal", to "compose";
     /// What stamps leave on the material.
-    Material = "material", R32Uint, mips false, LAYER, "unorm8 ×4: soot, bare, post, 0", from "stamp", to "surface";
+    Material = "material", R32Uint, mips false, LAYER, "bits of material::Marks", from "stamp, heal, cool", to "surface";
     /// The height field.
     Height = "height", R32Float, mips false, LAYER, "height, 0 to 1", from "compose", to "normals, pyramid, surface";
     /// Its normals and heights, and the means of both over ever larger texels.

@@ -7,10 +7,10 @@
 //! Levels have the sizes and parents of the [`pyramid`](super::pyramid)'s. 8 bytes in and 2⅔ out a texel, 2⅔ of them read once more.
 //! Shader: `shaders/field/normal_mips.wgsl`. Specification: [`crate::reference::normal_mips`].
 
+use super::blocks::{BlockList, Blocks};
 use super::{Field, Region};
-use crate::gpu::kernel::workgroups;
 use crate::gpu::texture::mip_level_count;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, UniformSlots};
 
 /// Bytes a texel by design: every level but the last in, every level but the first out: 10⅔ + 2⅔ and a little.
 pub const TEXEL_BYTES: u64 = 14;
@@ -20,7 +20,7 @@ pub const TEXEL_BYTES: u64 = 14;
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct NormalMipsParams {
     /// The texels of the level to average.
-    pub region: Region,
+    pub blocks: Blocks,
     /// Width and height of the level that is read.
     pub source_size: [u32; 2],
     /// Width and height of the level that is written.
@@ -38,6 +38,7 @@ pub struct NormalMips {
 /// The bindings of one field.
 pub struct NormalMipsSet {
     params: UniformSlots<NormalMipsParams>,
+    blocks: List<u32>,
     /// For each level from 1, what reads the one below it.
     groups: Vec<wgpu::BindGroup>,
     size: [u32; 2],
@@ -46,9 +47,6 @@ pub struct NormalMipsSet {
 impl NormalMips {
     /// A row of texels is contiguous in memory.
     pub const WORKGROUP: [u32; 2] = [16, 8];
-
-    /// Regions that one frame may average separately: those that the normals were derived in.
-    pub const MAX_REGIONS: u32 = super::normals::Normals::MAX_REGIONS;
 
     /// Builds the pipeline.
     ///
@@ -64,6 +62,7 @@ impl NormalMips {
                 Binding::UniformSlot,
                 Binding::Float(false),
                 Binding::Storage(wgpu::TextureFormat::Rgba16Float, wgpu::StorageTextureAccess::WriteOnly),
+                Binding::Read,
             ],
         );
         let kernel = Kernel::new(
@@ -80,7 +79,8 @@ impl NormalMips {
     /// Binds a field.
     pub fn bind(&self, gpu: &Gpu, field: &Field) -> NormalMipsSet {
         let levels = mip_level_count(field.size);
-        let params = UniformSlots::new(gpu, "normal mips", levels * Self::MAX_REGIONS);
+        let params = UniformSlots::new(gpu, "normal mips", levels);
+        let blocks = List::new(gpu, "normal mips' blocks", BlockList::capacity(level_sizes(field.size), Self::WORKGROUP));
         let groups = (1..levels as usize)
             .map(|level| {
                 self.layout.bind(
@@ -89,37 +89,42 @@ impl NormalMips {
                         params.binding(),
                         wgpu::BindingResource::TextureView(&field.normal.levels[level - 1]),
                         wgpu::BindingResource::TextureView(&field.normal.levels[level]),
+                        blocks.buffer.as_entire_binding(),
                     ],
                 )
             })
             .collect();
-        NormalMipsSet { params, groups, size: field.size }
+        NormalMipsSet { params, blocks, groups, size: field.size }
     }
 
     /// Averages anew whatever has one of these texels of level 0 beneath it.
     pub fn record(&self, recorder: &mut Recorder<'_>, set: &NormalMipsSet, texels: &[Region]) {
-        let dispatches = dispatches(set.size, texels);
+        let (list, dispatches) = plan(set.size, texels);
         let params: Vec<_> = dispatches.iter().map(|(_, params)| *params).collect();
         set.params.write(recorder.gpu, &params);
+        set.blocks.write(recorder.gpu, &list.items);
         recorder.compute("normal mips", |pass| {
             pass.set_pipeline(&self.kernel.pipeline);
-            for (slot, (level, params)) in (0..).zip(&dispatches) {
-                let [x, y] = workgroups(params.region.extent, Self::WORKGROUP);
-                pass.set_bind_group(1, &set.groups[*level - 1], &[set.params.offset(slot)]);
-                pass.dispatch_workgroups(x, y, 1);
+            for (group, ([x, y], _)) in dispatches.iter().enumerate() {
+                pass.set_bind_group(1, &set.groups[group], &[set.params.offset(group as u32)]);
+                pass.dispatch_workgroups(*x, *y, 1);
             }
         });
     }
 }
 
-/// Level and parameters of each dispatch, finest level first.
-fn dispatches(field: [u32; 2], texels: &[Region]) -> Vec<(usize, NormalMipsParams)> {
+/// The sizes of the levels from 1, finest first.
+fn level_sizes(field: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    (1..mip_level_count(field)).map(move |level| field.map(|size| (size >> level).max(1)))
+}
+
+/// Workgroups and parameters of each level's dispatch, from level 1, and the blocks that they list; nothing where there are no texels.
+fn plan(field: [u32; 2], texels: &[Region]) -> (BlockList, Vec<([u32; 2], NormalMipsParams)>) {
     let mut regions = texels.to_vec();
-    let mut dispatches = Vec::new();
-    let size_of = |level: u32| field.map(|size| (size >> level).max(1));
-    for level in 1..mip_level_count(field) {
-        let (source_size, size) = (size_of(level - 1), size_of(level));
-        regions = regions.iter().map(|region| region.parents(size)).collect();
+    let mut source_size = field;
+    let (mut list, mut dispatches) = (BlockList::default(), Vec::new());
+    for (level, size) in (1_u32..).zip(level_sizes(field)) {
+        regions.iter_mut().for_each(|region| *region = region.parents(size));
         // Far up the regions meet.
         regions.dedup();
         let last_weight = [0, 1].map(|axis| {
@@ -128,9 +133,9 @@ fn dispatches(field: [u32; 2], texels: &[Region]) -> Vec<(usize, NormalMipsParam
             let before = (source_size[axis] - 1) * whole;
             if source_size[axis] == 1 { 1.0 } else { (field[axis] - before) as f32 / whole as f32 }
         });
-        dispatches.extend(
-            regions.iter().map(|region| (level as usize, NormalMipsParams { region: *region, source_size, size, last_weight })),
-        );
+        let Some(dispatch) = list.plan(&regions, size, NormalMips::WORKGROUP) else { break };
+        dispatches.push((dispatch.workgroups, NormalMipsParams { blocks: dispatch.blocks, source_size, size, last_weight }));
+        source_size = size;
     }
-    dispatches
+    (list, dispatches)
 }

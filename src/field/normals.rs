@@ -3,9 +3,9 @@
 //! Reads [`Height`](super::Height), writes every texel of [`Normal`](super::Normal)'s level 0 in the regions given, with the height
 //! beside it: [`normal_mips`](super::normal_mips) averages both. 4 bytes in, 8 out a texel, the halo apart. Shader: `shaders/field/normals.wgsl`. Specification: [`crate::reference::normals`].
 
+use super::blocks::{BlockList, Blocks};
 use super::{Field, Region};
-use crate::gpu::kernel::workgroups;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
 use crate::scene::Addressing;
 
 /// Bytes a texel by design: height in, normal out.
@@ -16,7 +16,7 @@ pub const TEXEL_BYTES: u64 = 12;
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct NormalsParams {
     /// The texels to derive.
-    pub region: Region,
+    pub blocks: Blocks,
     /// Depth over the texel's width and height: the slope of a difference of 1 between neighbours.
     pub slope_per_height: [f32; 2],
     /// Width and height of the field, texels.
@@ -35,7 +35,8 @@ pub struct Normals {
 
 /// The bindings of one field.
 pub struct NormalsSet {
-    params: UniformSlots<NormalsParams>,
+    params: Uniform<NormalsParams>,
+    blocks: List<u32>,
     group: wgpu::BindGroup,
     size: [u32; 2],
     addressing: Addressing,
@@ -44,9 +45,6 @@ pub struct NormalsSet {
 impl Normals {
     /// The tile and its halo of one stay in cache.
     pub const WORKGROUP: [u32; 2] = [16, 8];
-
-    /// Regions that one frame may derive separately: each that changed, grown, in up to four pieces where the field wraps.
-    pub const MAX_REGIONS: u32 = 4 * super::Dirty::MAX_REGIONS as u32;
 
     /// Builds the pipeline.
     ///
@@ -59,9 +57,10 @@ impl Normals {
             "normals",
             wgpu::ShaderStages::COMPUTE,
             &[
-                Binding::UniformSlot,
+                Binding::Uniform,
                 Binding::Float(false),
                 Binding::Storage(wgpu::TextureFormat::Rgba16Float, wgpu::StorageTextureAccess::WriteOnly),
+                Binding::Read,
             ],
         );
         let kernel = Kernel::new(
@@ -77,38 +76,38 @@ impl Normals {
 
     /// Binds a field.
     pub fn bind(&self, gpu: &Gpu, field: &Field) -> NormalsSet {
-        let params = UniformSlots::new(gpu, "normals", Self::MAX_REGIONS);
+        let params = Uniform::new(gpu, "normals");
+        let blocks = List::new(gpu, "normals' blocks", BlockList::capacity(std::iter::once(field.size), Self::WORKGROUP));
         let group = self.layout.bind(
             gpu,
             &[
-                params.binding(),
+                params.buffer.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&field.height.view),
                 wgpu::BindingResource::TextureView(&field.normal.levels[0]),
+                blocks.buffer.as_entire_binding(),
             ],
         );
-        NormalsSet { params, group, size: field.size, addressing: field.addressing }
+        NormalsSet { params, blocks, group, size: field.size, addressing: field.addressing }
     }
 
     /// Derives the regions.
     pub fn record(&self, recorder: &mut Recorder<'_>, set: &NormalsSet, regions: &[Region], slope_per_height: [f32; 2]) {
-        let params: Vec<_> = regions
-            .iter()
-            .map(|region| NormalsParams {
-                region: *region,
-                slope_per_height,
-                size: set.size,
-                wrap: u32::from(set.addressing == Addressing::Wrap),
-                pad: 0,
-            })
-            .collect();
+        let mut list = BlockList::default();
+        let Some(dispatch) = list.plan(regions, set.size, Self::WORKGROUP) else { return };
+        set.blocks.write(recorder.gpu, &list.items);
+        let params = NormalsParams {
+            blocks: dispatch.blocks,
+            slope_per_height,
+            size: set.size,
+            wrap: u32::from(set.addressing == Addressing::Wrap),
+            pad: 0,
+        };
         set.params.write(recorder.gpu, &params);
         recorder.compute("normals", |pass| {
+            let [x, y] = dispatch.workgroups;
             pass.set_pipeline(&self.kernel.pipeline);
-            for (slot, params) in (0..).zip(&params) {
-                let [x, y] = workgroups(params.region.extent, Self::WORKGROUP);
-                pass.set_bind_group(1, &set.group, &[set.params.offset(slot)]);
-                pass.dispatch_workgroups(x, y, 1);
-            }
+            pass.set_bind_group(1, &set.group, &[]);
+            pass.dispatch_workgroups(x, y, 1);
         });
     }
 }

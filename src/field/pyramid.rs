@@ -7,10 +7,10 @@
 //! Reads [`Height`](super::Height), writes [`Pyramid`](super::Pyramid) in the regions given. 4 bytes in and 5⅓ out a texel, 1⅓ of them
 //! read once more. Shader: `shaders/field/pyramid.wgsl`. Specification: [`crate::reference::pyramid`].
 
+use super::blocks::{BlockList, Blocks};
 use super::{Field, Region};
-use crate::gpu::kernel::workgroups;
 use crate::gpu::texture::mip_level_count;
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
 /// Bytes a texel by design: height in, every level out, and every level but the last in again: 4 + 5⅓ + 1⅓ and a little.
@@ -21,7 +21,7 @@ pub const TEXEL_BYTES: u64 = 11;
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PyramidParams {
     /// The nodes to bound.
-    pub region: Region,
+    pub blocks: Blocks,
     /// Width and height of the level that is read.
     pub source_size: [u32; 2],
     /// Width and height of the level that is written.
@@ -42,6 +42,7 @@ pub struct Pyramid {
 /// The bindings of one field.
 pub struct PyramidSet {
     params: UniformSlots<PyramidParams>,
+    blocks: List<u32>,
     /// For each level, what reads the one below it (for level 0, the heights).
     groups: Vec<wgpu::BindGroup>,
     size: [u32; 2],
@@ -51,9 +52,6 @@ pub struct PyramidSet {
 impl Pyramid {
     /// A row of texels is contiguous in memory.
     pub const WORKGROUP: [u32; 2] = [16, 8];
-
-    /// Regions that one frame may rebuild separately: each that changed, grown, in up to four pieces where the field wraps.
-    pub const MAX_REGIONS: u32 = 4 * super::Dirty::MAX_REGIONS as u32;
 
     /// Builds the pipelines.
     ///
@@ -69,6 +67,7 @@ impl Pyramid {
                 Binding::UniformSlot,
                 Binding::Float(false),
                 Binding::Storage(wgpu::TextureFormat::R32Float, wgpu::StorageTextureAccess::WriteOnly),
+                Binding::Read,
             ],
         );
         let kernel = |entry_point| {
@@ -88,7 +87,8 @@ impl Pyramid {
     /// Binds a field.
     pub fn bind(&self, gpu: &Gpu, field: &Field) -> PyramidSet {
         let levels = mip_level_count(field.size);
-        let params = UniformSlots::new(gpu, "pyramid", levels * Self::MAX_REGIONS);
+        let params = UniformSlots::new(gpu, "pyramid", levels);
+        let blocks = List::new(gpu, "pyramid' blocks", BlockList::capacity(level_sizes(field.size), Self::WORKGROUP));
         let groups = (0..levels as usize)
             .map(|level| {
                 let source = if level == 0 { &field.height.view } else { &field.pyramid.levels[level - 1] };
@@ -98,47 +98,51 @@ impl Pyramid {
                         params.binding(),
                         wgpu::BindingResource::TextureView(source),
                         wgpu::BindingResource::TextureView(&field.pyramid.levels[level]),
+                        blocks.buffer.as_entire_binding(),
                     ],
                 )
             })
             .collect();
-        PyramidSet { params, groups, size: field.size, addressing: field.addressing }
+        PyramidSet { params, blocks, groups, size: field.size, addressing: field.addressing }
     }
 
     /// Rebuilds every level over the nodes that the cells in `cells` touch.
     pub fn record(&self, recorder: &mut Recorder<'_>, set: &PyramidSet, cells: &[Region]) {
-        let dispatches = dispatches(set.size, set.addressing, cells);
+        let (list, dispatches) = plan(set.size, set.addressing, cells);
         let params: Vec<_> = dispatches.iter().map(|(_, params)| *params).collect();
         set.params.write(recorder.gpu, &params);
+        set.blocks.write(recorder.gpu, &list.items);
         recorder.compute("pyramid", |pass| {
-            for (slot, (level, params)) in (0..).zip(&dispatches) {
-                let kernel = if *level == 0 { &self.cells } else { &self.parents };
-                let [x, y] = workgroups(params.region.extent, Self::WORKGROUP);
+            for (level, ([x, y], _)) in dispatches.iter().enumerate() {
+                let kernel = if level == 0 { &self.cells } else { &self.parents };
                 pass.set_pipeline(&kernel.pipeline);
-                pass.set_bind_group(1, &set.groups[*level], &[set.params.offset(slot)]);
-                pass.dispatch_workgroups(x, y, 1);
+                pass.set_bind_group(1, &set.groups[level], &[set.params.offset(level as u32)]);
+                pass.dispatch_workgroups(*x, *y, 1);
             }
         });
     }
 }
 
-/// Level and parameters of each dispatch, finest level first.
-fn dispatches(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> Vec<(usize, PyramidParams)> {
+/// The sizes of the levels, finest first.
+fn level_sizes(size: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    (0..mip_level_count(size)).map(move |level| size.map(|size| (size >> level).max(1)))
+}
+
+/// Workgroups and parameters of each level's dispatch, and the blocks that they list; nothing where there are no cells.
+fn plan(size: [u32; 2], addressing: Addressing, cells: &[Region]) -> (BlockList, Vec<([u32; 2], PyramidParams)>) {
     let wrap = u32::from(addressing == Addressing::Wrap);
     let mut regions = cells.to_vec();
     let mut source_size = size;
-    let mut dispatches = Vec::new();
-    for level in 0..mip_level_count(size) {
-        let size = [(size[0] >> level).max(1), (size[1] >> level).max(1)];
+    let (mut list, mut dispatches) = (BlockList::default(), Vec::new());
+    for (level, size) in level_sizes(size).enumerate() {
         if level > 0 {
-            regions = regions.iter().map(|region| region.parents(size)).collect();
+            regions.iter_mut().for_each(|region| *region = region.parents(size));
             // Far up the regions meet.
             regions.dedup();
         }
-        dispatches.extend(
-            regions.iter().map(|region| (level as usize, PyramidParams { region: *region, source_size, size, wrap, pad: 0 })),
-        );
+        let Some(dispatch) = list.plan(&regions, size, Pyramid::WORKGROUP) else { break };
+        dispatches.push((dispatch.workgroups, PyramidParams { blocks: dispatch.blocks, source_size, size, wrap, pad: 0 }));
         source_size = size;
     }
-    dispatches
+    (list, dispatches)
 }

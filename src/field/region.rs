@@ -2,9 +2,8 @@
 
 use crate::scene::Addressing;
 
-/// A rectangle of texels inside the field: the part that one dispatch covers. Its WGSL twin is in `shaders/common/region.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+/// A rectangle of texels inside the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
     /// Its first texel.
     pub origin: [u32; 2],
@@ -21,11 +20,6 @@ impl Region {
     /// How many texels it has.
     pub fn area(&self) -> u64 {
         u64::from(self.extent[0]) * u64::from(self.extent[1])
-    }
-
-    /// The smallest region of whole tiles that holds it, cut at the field's border.
-    pub fn tiles(&self, tile: u32, size: [u32; 2]) -> Self {
-        self.map(|origin, end, size| (origin / tile * tile, end.next_multiple_of(tile).min(size)), size)
     }
 
     /// The nodes of the next pyramid level that have one of these nodes as a child; `size` is that level's size.
@@ -90,11 +84,5 @@ mod tests {
         assert_eq!(region(4, 0, 1, 1).parents([2, 2]), region(1, 0, 1, 1));
         assert_eq!(region(1, 1, 3, 3).parents([2, 2]), region(0, 0, 2, 2));
         assert_eq!(region(0, 0, 1, 1).parents([1, 1]), region(0, 0, 1, 1));
-    }
-
-    #[test]
-    fn tiles_hold_the_region() {
-        assert_eq!(region(17, 3, 2, 40).tiles(16, [40, 50]), region(16, 0, 16, 48));
-        assert_eq!(region(33, 33, 1, 1).tiles(16, [40, 50]), region(32, 32, 8, 16));
     }
 }

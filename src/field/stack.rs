@@ -142,23 +142,24 @@ impl Stack {
         Ok(())
     }
 
-    /// Composes the height field where anything changed, and says where that was.
-    pub fn compose_top(&mut self, recorder: &mut Recorder<'_>, scene: &Scene, size: [u32; 2]) -> Vec<Region> {
+    /// Composes the height field where anything changed, and says where that was and to how many texels it came.
+    pub fn compose_top(&mut self, recorder: &mut Recorder<'_>, scene: &Scene, size: [u32; 2]) -> (Vec<Region>, u64) {
         let changed = std::mem::take(&mut self.dirty).regions(size);
-        self.compose(recorder, scene, self.segments.len() - 1, &changed);
-        changed
+        let texels = self.compose(recorder, scene, self.segments.len() - 1, &changed);
+        (changed, texels)
     }
 
-    fn compose(&mut self, recorder: &mut Recorder<'_>, scene: &Scene, segment: usize, changed: &[Region]) {
+    fn compose(&mut self, recorder: &mut Recorder<'_>, scene: &Scene, segment: usize, changed: &[Region]) -> u64 {
         if changed.is_empty() {
-            return;
+            return 0;
         }
         let Segment { compose, set, layers } = &self.segments[segment];
         let sources = &self.sources[layers.clone()];
         let layers: Vec<_> = sources.iter().map(|source| (source.layer(scene), source.heights().current)).collect();
-        compose.record(recorder, set, changed, &layers);
+        let texels = compose.record(recorder, set, changed, &layers);
         let texel_bytes = compose::TEXEL_BYTES + compose::LAYER_BYTES * layers.len() as u64;
-        self.composed_bytes += texel_bytes * changed.iter().map(Region::area).sum::<u64>();
+        self.composed_bytes += texel_bytes * texels;
+        texels
     }
 
     /// The source of this name, if the scene has it.

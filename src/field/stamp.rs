@@ -4,180 +4,93 @@
 //! ([`Bins`]), one workgroup a touched tile gathers its own in the order of submission.
 //! Shader: `shaders/field/stamp.wgsl`. Specification: [`crate::reference::stamp`].
 
-use bytemuck::{Pod, Zeroable};
-use serde::{Deserialize, Serialize};
+mod form;
+mod images;
 
-use super::bins::{BinError, Bins, Disc, Ground, Member, Tile, tile_workgroups};
-use super::{Dirty, Field};
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
+use bytemuck::{Pod, Zeroable};
+
+use super::bins::{BinError, Bins, Ground, Member, Tile, tile_workgroups};
+use super::{Dirty, Field, material};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, UniformSlots};
 use crate::scene::Addressing;
 
 /// Bytes a texel of a touched tile by design: relief and material in and out.
 pub const TEXEL_BYTES: u64 = 16;
 
-/// The form of a stamp: its profile p over ρ, the distance from its centre in radii. Each is 0 from ρ = 1 on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[repr(u32)]
-pub enum Profile {
-    /// 1 everywhere, with a hard edge.
-    Disc = 0,
-    /// 1 − ρ.
-    Cone = 1,
-    /// (1 − ρ²)², smooth everywhere.
-    #[default]
-    Bump = 2,
-    /// A bowl of depth 1 with a bore down its middle, its rim at ρ = [`CRATER_RIM`], the rim's lip [`CRATER_LIP`] high; slopes are
-    /// continuous.
-    Crater = 3,
-}
+pub use form::{Blend, CRATER_GRAIN, CRATER_LIP, CRATER_RIM, ImageForm, Profile, RUT_FLOOR, RUT_RIM, Stamp};
+pub use images::{StampImage, StampImages};
 
-impl Profile {
-    /// Every profile.
-    pub const ALL: [Self; 4] = [Self::Disc, Self::Cone, Self::Bump, Self::Crater];
-
-    /// The integral of the profile over its disc, in units of the squared radius.
-    pub fn volume(self) -> f64 {
-        use std::f64::consts::PI;
-        match self {
-            Self::Disc => PI,
-            Self::Cone | Self::Bump => PI / 3.0,
-            // With s = ρ², dA = π ds. Over 0..1 the bowl's x²(3 − 2x) is 1/2, the bore's 1 − (1 − x)⁶ is 6/7, the mean of the two
-            // 19/28; the flank's (1 − y)⁴(1 + 4y) is 1/3.
-            Self::Crater => {
-                let (rim, lip) = (CRATER_RIM * CRATER_RIM, CRATER_LIP);
-                PI * (rim * ((1.0 + lip) * 19.0 / 28.0 - 1.0) + (1.0 - rim) * lip / 3.0)
-            }
-        }
-    }
-}
-
-/// Radius of a crater's rim, in radii of its stamp. What lies beyond is the lip's flank and the soot.
-pub const CRATER_RIM: f64 = 0.5;
-
-/// Height of a crater's lip, in depths of its bowl.
-pub const CRATER_LIP: f64 = 0.1;
-
-/// How far grains of the broken material stand out of an irregular crater or lack in it, in depths of its bowl: a texel each, whatever
-/// its size.
-pub const CRATER_GRAIN: f64 = 0.06;
-
-/// How a stamp meets what is there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[repr(u32)]
-pub enum Blend {
-    /// layer + height·p.
-    #[default]
-    Add = 0,
-    /// The lower of the layer and level + height·p.
-    Min = 1,
-    /// The higher of the layer and level + height·p.
-    Max = 2,
-    /// Mixes the layer toward level + height·p, by alpha.
-    Replace = 3,
-}
-
-impl Blend {
-    /// Every blend.
-    pub const ALL: [Self; 4] = [Self::Add, Self::Min, Self::Max, Self::Replace];
-}
-
-/// One stamp.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Stamp {
-    /// Its centre, lattice coordinates.
-    pub centre: [f32; 2],
-    /// Radius beyond which it changes nothing, texels.
-    pub radius: f32,
-    /// What its profile is multiplied by, in heights. A crater's depth.
-    pub height: f32,
-    /// From which height min, max and replace count.
-    pub level: f32,
-    /// Its form.
-    pub profile: Profile,
-    /// How it meets what is there.
-    pub blend: Blend,
-    /// How much of the layer it replaces, 0 to 1.
-    pub alpha: f32,
-    /// How far its form departs from a circle: 0 none, 1 by up to half its radius. An irregular crater has grains in it, too.
-    pub irregularity: f32,
-    /// Which of the irregular forms, radians.
-    pub phase: f32,
-    /// How black the soot is that it lays, 0 to 1.
-    pub soot: f32,
-    /// How bare it lays the material within, 0 to 1.
-    pub bare: f32,
-}
-
-impl Default for Stamp {
-    fn default() -> Self {
-        Self {
-            centre: [0.0, 0.0],
-            radius: 8.0,
-            height: 0.1,
-            level: 0.0,
-            profile: Profile::default(),
-            blend: Blend::default(),
-            alpha: 1.0,
-            irregularity: 0.0,
-            phase: 0.0,
-            soot: 0.0,
-            bare: 0.0,
-        }
-    }
-}
-
-impl Stamp {
-    /// The disc outside which it changes nothing.
-    pub const fn disc(&self) -> Disc {
-        Disc { centre: self.centre, radius: self.radius }
-    }
-
-    /// Whether it is round and leaves the material alone.
-    fn is_plain(&self) -> bool {
-        self.irregularity == 0.0 && self.soot == 0.0 && self.bare == 0.0
-    }
-}
-
-/// What the shader needs of a stamp besides its disc.
+/// What the shader needs of any stamp besides its disc. Fields are those of [`Stamp`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[expect(missing_docs, reason = "the WGSL twin documents the fields, and one place is enough")]
 pub struct StampRecord {
-    /// [`Stamp::height`].
     pub height: f32,
-    /// [`Stamp::level`].
     pub level: f32,
-    /// [`Stamp::alpha`].
     pub alpha: f32,
-    /// [`Stamp::irregularity`].
-    pub irregularity: f32,
-    /// [`Stamp::phase`] as a unit complex number: the shader needs no trigonometry, whose precision WGSL leaves open.
-    pub phase: [f32; 2],
-    /// [`Stamp::soot`].
-    pub soot: f32,
-    /// [`Stamp::bare`].
-    pub bare: f32,
-    /// [`Stamp::profile`].
     pub profile: u32,
-    /// [`Stamp::blend`].
     pub blend: u32,
 }
 
 impl From<&Stamp> for StampRecord {
     fn from(stamp: &Stamp) -> Self {
-        let (sin, cos) = f64::from(stamp.phase).sin_cos();
+        let Stamp { height, level, alpha, profile, blend, .. } = *stamp;
+        Self { height, level, alpha, profile: profile as u32, blend: blend as u32 }
+    }
+}
+
+/// What the shader needs besides of a stamp that is not plain.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[expect(missing_docs, reason = "the WGSL twin documents the fields, and one place is enough")]
+pub struct StampExtra {
+    pub phase: [f32; 2],
+    pub span: [f32; 2],
+    pub joins: [f32; 2],
+    pub axis: [f32; 2],
+    pub half_extent: [f32; 2],
+    pub image_origin: [u32; 2],
+    pub image_size: [u32; 2],
+    pub irregularity: f32,
+    pub soot: f32,
+    pub bare: f32,
+    pub gloss: f32,
+    pub heat: f32,
+    pub moment: f32,
+    pub along: f32,
+    pub tread: f32,
+    pub lugs_per_texel: f32,
+    pub spare: f32,
+}
+
+impl StampExtra {
+    /// Angles become unit vectors: the shader needs no trigonometry, whose precision WGSL leaves open.
+    fn new(stamp: &Stamp, images: &StampImages, cooling_seconds: f64) -> Self {
+        let unit = |angle: f32| [f64::from(angle).cos() as f32, f64::from(angle).sin() as f32];
+        // Where there is no such image the profile serves.
+        let image = stamp.image.and_then(|form| Some((form, images.place(form.number)?)));
+        let (half_extent, [image_origin, image_size]) =
+            image.map_or(([0.0; 2], [[0; 2]; 2]), |(form, place)| (form.half_extent, place));
+        let lugs_per_texel = if stamp.tread > 0.0 { 1.0 / stamp.lug_texels.max(1e-3) } else { 0.0 };
         Self {
-            height: stamp.height,
-            level: stamp.level,
-            alpha: stamp.alpha,
+            phase: unit(stamp.phase),
+            span: stamp.span,
+            joins: if stamp.blend == Blend::Add { stamp.joins } else { [0.0; 2] },
+            axis: unit(stamp.image.map_or(0.0, |form| form.turn)),
+            half_extent,
+            image_origin,
+            image_size,
             irregularity: stamp.irregularity,
-            phase: [cos as f32, sin as f32],
             soot: stamp.soot,
             bare: stamp.bare,
-            profile: stamp.profile as u32,
-            blend: stamp.blend as u32,
+            gloss: stamp.gloss,
+            heat: stamp.heat,
+            moment: material::moment(stamp.at_seconds, cooling_seconds),
+            // The count of lugs before it does not matter, and would cost precision.
+            along: (f64::from(stamp.along) * f64::from(lugs_per_texel)).fract() as f32,
+            tread: stamp.tread,
+            lugs_per_texel,
+            spare: 0.0,
         }
     }
 }
@@ -190,40 +103,81 @@ pub struct StampParams {
     pub size: [u32; 2],
     /// Number of touched tiles.
     pub tile_count: u32,
-    /// Fills the last 16 bytes.
-    pub spare: u32,
+    /// The first of them.
+    pub first_tile: u32,
 }
 
 /// Presses stamps.
 pub struct Stamps {
     /// For stamps that are round and leave the material alone, all of them.
     plain: Kernel,
+    /// For any that are round.
+    round: Kernel,
     /// For any.
-    full: Kernel,
+    any: Kernel,
     layout: BindingLayout,
 }
 
 /// The bindings of one field, and the lists of a frame's stamps.
 pub struct StampSet {
+    /// In how many seconds what glows falls to 1/e.
+    pub cooling_seconds: f64,
     ground: Ground,
     bins: Bins,
     records: Vec<StampRecord>,
+    extras: Vec<StampExtra>,
     buffers: Buffers,
     layers: [wgpu::TextureView; 2],
+    images: StampImages,
     group: wgpu::BindGroup,
 }
 
 struct Buffers {
-    params: Uniform<StampParams>,
+    params: UniformSlots<StampParams>,
     tiles: List<Tile>,
     members: List<Member>,
     records: List<StampRecord>,
+    extras: List<StampExtra>,
+}
+
+/// The stamps of one call, in a dispatch for each of their parts, which are pressed one after another.
+pub struct Pressing {
+    kernel: Kind,
+    /// First tile and number of tiles of each part.
+    parts: Vec<[u32; 2]>,
+    /// What each changes.
+    dirty: Vec<Dirty>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Plain,
+    Round,
+    Any,
+}
+
+impl Pressing {
+    /// The texels that a part may change.
+    pub fn dirty(&self, part: usize) -> &Dirty {
+        &self.dirty[part]
+    }
 }
 
 impl StampSet {
     /// Texels of the tiles that the last stamps touched, a tile at the border counted whole.
     pub fn touched_texels(&self) -> u64 {
         self.bins.tiles.len() as u64 * self.ground.tile.map(u64::from).iter().product::<u64>()
+    }
+
+    /// Column and row of every tile that a part touches.
+    pub fn tiles(&self, pressing: &Pressing, part: usize) -> impl Iterator<Item = [u32; 2]> {
+        let [first, count] = pressing.parts[part].map(|number| number as usize);
+        self.bins.tiles[first..first + count].iter().map(|tile| tile.tile)
+    }
+
+    /// The images that stamps may have for their form.
+    pub fn images(&self) -> &StampImages {
+        &self.images
     }
 }
 
@@ -232,7 +186,10 @@ impl Stamps {
     /// gather fewer stamps that miss most of them.
     pub const TILE: [u32; 2] = [16, 8];
 
-    /// Builds the pipeline.
+    /// The WGSL that it is made of.
+    pub const PARTS: [&str; 5] = ["common/noise", "common/material", "common/profile", "common/marks", "field/stamp"];
+
+    /// Builds the pipelines.
     ///
     /// # Errors
     ///
@@ -244,55 +201,71 @@ impl Stamps {
             "stamp",
             wgpu::ShaderStages::COMPUTE,
             &[
-                Binding::Uniform,
+                Binding::UniformSlot,
                 Binding::Storage(wgpu::TextureFormat::R32Float, in_place),
                 Binding::Storage(wgpu::TextureFormat::R32Uint, in_place),
                 Binding::Read,
                 Binding::Read,
                 Binding::Read,
+                Binding::Read,
+                Binding::Float(false),
             ],
         );
-        // Two kernels, since a branch that no texel takes still costs a software adapter all that it skips.
-        let kernel = |plain: bool| {
+        // Three kernels, since a branch that no texel takes still costs a software adapter all that it skips.
+        let kernel = |plain: bool, forms: bool| {
             let constants = [
                 ("STAMP_TILE_X", f64::from(Self::TILE[0])),
                 ("STAMP_TILE_Y", f64::from(Self::TILE[1])),
                 ("STAMP_RIM_SQUARED", CRATER_RIM * CRATER_RIM),
                 ("STAMP_LIP", CRATER_LIP),
+                ("STAMP_RUT_FLOOR_SQUARED", RUT_FLOOR * RUT_FLOOR),
+                ("STAMP_RUT_RIM_SQUARED", RUT_RIM * RUT_RIM),
                 ("STAMP_GRAIN", CRATER_GRAIN),
                 ("STAMP_PLAIN", f64::from(u8::from(plain))),
+                ("STAMP_FORMS", f64::from(u8::from(forms))),
             ];
-            Kernel::new(gpu, "stamp", &["common/noise", "field/stamp"], "stamp_press", &constants, &[None, Some(&layout)])
+            Kernel::new(gpu, "stamp", &Self::PARTS, "stamp_press", &constants, &[None, Some(&layout)])
         };
-        let (plain, full) = (kernel(true)?, kernel(false)?);
-        Ok(Self { plain, full, layout })
+        let (plain, round, any) = (kernel(true, false)?, kernel(false, false)?, kernel(false, true)?);
+        Ok(Self { plain, round, any, layout })
     }
 
-    /// Binds a field.
-    pub fn bind(&self, gpu: &Gpu, field: &Field) -> StampSet {
+    /// Binds a field, and the images that its stamps may have.
+    pub fn bind(&self, gpu: &Gpu, field: &Field, images: &[StampImage]) -> StampSet {
         // Room for a few shots; a stress test makes more.
         let buffers = Buffers {
-            params: Uniform::new(gpu, "stamp"),
+            params: UniformSlots::new(gpu, "stamp", 8),
             tiles: List::new(gpu, "stamp tiles", 256),
             members: List::new(gpu, "stamp members", 256),
             records: List::new(gpu, "stamps", 64),
+            extras: List::new(gpu, "stamps' extras", 64),
         };
+        let images = StampImages::new(gpu, images);
         let layers = [field.relief.view.clone(), field.material.view.clone()];
-        let group = self.group(gpu, &layers, &buffers);
+        let group = self.group(gpu, &layers, &images, &buffers);
         let ground = Ground { size: field.size, wrap: field.addressing == Addressing::Wrap, tile: Self::TILE };
-        StampSet { ground, bins: Bins::default(), records: Vec::new(), buffers, layers, group }
+        let (records, extras) = (Vec::new(), Vec::new());
+        StampSet { cooling_seconds: 1.0, ground, bins: Bins::default(), records, extras, buffers, layers, images, group }
     }
 
-    fn group(&self, gpu: &Gpu, [relief, material]: &[wgpu::TextureView; 2], buffers: &Buffers) -> wgpu::BindGroup {
+    fn group(
+        &self,
+        gpu: &Gpu,
+        [relief, material]: &[wgpu::TextureView; 2],
+        images: &StampImages,
+        buffers: &Buffers,
+    ) -> wgpu::BindGroup {
         self.layout.bind(
             gpu,
             &[
-                buffers.params.buffer.as_entire_binding(),
+                buffers.params.binding(),
                 wgpu::BindingResource::TextureView(relief),
                 wgpu::BindingResource::TextureView(material),
                 buffers.tiles.buffer.as_entire_binding(),
                 buffers.members.buffer.as_entire_binding(),
                 buffers.records.buffer.as_entire_binding(),
+                buffers.extras.buffer.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&images.view),
             ],
         )
     }
@@ -303,39 +276,83 @@ impl Stamps {
     ///
     /// They touch more tiles than a buffer of the adapter holds; then none is pressed.
     pub fn record(&self, recorder: &mut Recorder<'_>, set: &mut StampSet, stamps: &[Stamp]) -> Result<Dirty, BinError> {
-        let gpu = recorder.gpu;
-        set.bins.clear();
-        let limit = List::<Member>::limit(gpu).min(List::<Tile>::limit(gpu));
-        let batch = set.bins.add(set.ground, stamps.iter().map(Stamp::disc), limit)?;
-        if batch.tile_count == 0 {
-            return Ok(Dirty::Nothing);
-        }
-        set.records.clear();
-        set.records.extend(stamps.iter().map(StampRecord::from));
-        self.upload(gpu, set, batch.tile_count);
-        let kernel = if stamps.iter().all(Stamp::is_plain) { &self.plain } else { &self.full };
-        recorder.compute("stamp", |pass| {
-            pass.set_pipeline(&kernel.pipeline);
-            pass.set_bind_group(1, &set.group, &[]);
-            let [x, y] = tile_workgroups(batch.tile_count);
-            pass.dispatch_workgroups(x, y, 1);
-        });
-        Ok(batch.dirty)
+        let pressing = self.prepare(recorder.gpu, set, &[stamps])?;
+        self.press(recorder, set, &pressing, 0);
+        Ok(pressing.dirty.into_iter().next().unwrap_or_default())
     }
 
-    fn upload(&self, gpu: &Gpu, set: &mut StampSet, tile_count: u32) {
+    /// Bins and uploads stamps in several parts, so that others can work on the layers in between. One call serves one submission.
+    ///
+    /// # Errors
+    ///
+    /// They touch more tiles than a buffer of the adapter holds.
+    pub fn prepare(&self, gpu: &Gpu, set: &mut StampSet, parts: &[&[Stamp]]) -> Result<Pressing, BinError> {
+        let limit = List::<Member>::limit(gpu).min(List::<Tile>::limit(gpu));
+        let mut pressing = Pressing { kernel: Kind::Plain, parts: Vec::new(), dirty: Vec::new() };
+        set.bins.clear();
+        set.records.clear();
+        set.extras.clear();
+        for stamps in parts {
+            let batch = set.bins.add(set.ground, stamps.iter().map(Stamp::capsule), limit)?;
+            pressing.parts.push([batch.first_tile, batch.tile_count]);
+            pressing.dirty.push(batch.dirty);
+        }
+        let stamps = || parts.iter().copied().flatten();
+        pressing.kernel = match () {
+            () if stamps().all(Stamp::is_plain) => Kind::Plain,
+            () if stamps().any(Stamp::has_form) => Kind::Any,
+            () => Kind::Round,
+        };
+        if !set.bins.tiles.is_empty() {
+            set.records.extend(stamps().map(StampRecord::from));
+            if pressing.kernel != Kind::Plain {
+                set.extras.extend(stamps().map(|stamp| StampExtra::new(stamp, &set.images, set.cooling_seconds)));
+            }
+            self.upload(gpu, set, &pressing.parts);
+        }
+        Ok(pressing)
+    }
+
+    /// Presses one part.
+    pub fn press(&self, recorder: &mut Recorder<'_>, set: &StampSet, pressing: &Pressing, part: usize) {
+        let [_, tile_count] = pressing.parts[part];
+        if tile_count == 0 {
+            return;
+        }
+        let kernel = match pressing.kernel {
+            Kind::Plain => &self.plain,
+            Kind::Round => &self.round,
+            Kind::Any => &self.any,
+        };
+        recorder.compute("stamp", |pass| {
+            pass.set_pipeline(&kernel.pipeline);
+            pass.set_bind_group(1, &set.group, &[set.buffers.params.offset(part as u32)]);
+            let [x, y] = tile_workgroups(tile_count);
+            pass.dispatch_workgroups(x, y, 1);
+        });
+    }
+
+    fn upload(&self, gpu: &Gpu, set: &mut StampSet, parts: &[[u32; 2]]) {
         let buffers = &mut set.buffers;
         let grown = [
             buffers.tiles.reserve(gpu, set.bins.tiles.len()),
             buffers.members.reserve(gpu, set.bins.members.len()),
             buffers.records.reserve(gpu, set.records.len()),
+            buffers.extras.reserve(gpu, set.extras.len()),
+            parts.len() > buffers.params.capacity() as usize,
         ];
-        buffers.params.write(gpu, &StampParams { size: set.ground.size, tile_count, spare: 0 });
+        if grown[4] {
+            buffers.params = UniformSlots::new(gpu, "stamp", (parts.len() as u32).next_power_of_two());
+        }
+        let size = set.ground.size;
+        let params: Vec<_> = parts.iter().map(|&[first_tile, tile_count]| StampParams { size, tile_count, first_tile }).collect();
+        buffers.params.write(gpu, &params);
         buffers.tiles.write(gpu, &set.bins.tiles);
         buffers.members.write(gpu, &set.bins.members);
         buffers.records.write(gpu, &set.records);
+        buffers.extras.write(gpu, &set.extras);
         if grown.contains(&true) {
-            set.group = self.group(gpu, &set.layers, &set.buffers);
+            set.group = self.group(gpu, &set.layers, &set.images, &set.buffers);
         }
     }
 }

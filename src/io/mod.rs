@@ -8,6 +8,7 @@ pub mod field_image;
 pub mod font;
 pub mod height_image;
 pub mod image_sequence;
+pub mod imprint_image;
 pub mod journal;
 pub mod manifest;
 pub mod mesh_file;

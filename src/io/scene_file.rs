@@ -7,8 +7,10 @@ use super::colour_image;
 use super::font::{self, FontError};
 use super::height_image::{self, HeightImage, ImageError};
 use super::image_sequence::{Player, SequenceError, SequenceFiles};
+use super::imprint_image;
 use super::mesh_file::{self, MeshError};
 use crate::field::base::{self, Lettering};
+use crate::field::stamp::StampImage;
 use crate::mesh::{Mesh, MeshSource};
 use crate::scene::{self, Base, Camera, Material, Playback, PomCounts, PyramidLeaf, Scene, SceneError, Sequence, Text, VERSION};
 use crate::suggest;
@@ -16,7 +18,7 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 18] = [
+pub const EMBEDDED: [(&str, &str); 20] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -35,6 +37,8 @@ pub const EMBEDDED: [(&str, &str); 18] = [
     ("columns", include_str!("../../scenes/columns.toml")),
     ("dunes", include_str!("../../scenes/dunes.toml")),
     ("clockwork", include_str!("../../scenes/clockwork.toml")),
+    ("explosions", include_str!("../../scenes/explosions.toml")),
+    ("snow", include_str!("../../scenes/snow.toml")),
 ];
 
 /// No scene is longer: what is must be another kind of file.
@@ -134,6 +138,8 @@ pub struct LoadedScene {
     pub sequence: Option<SequenceFiles>,
     image: Option<HeightImage>,
     lettering: Option<Lettering>,
+    /// The images that stamps may have for their form.
+    pub images: Vec<StampImage>,
     colours: Option<ColourImage>,
 }
 
@@ -329,7 +335,8 @@ fn contents(mut scene: Scene, asked: Option<FieldSize>, is_given: bool) -> Resul
         Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
         None => None,
     };
-    Ok(LoadedScene { scene, mesh, reliefs: Vec::new(), sequence, image, lettering, colours })
+    let images = imprint_image::load(&scene.imprints)?;
+    Ok(LoadedScene { scene, mesh, reliefs: Vec::new(), sequence, image, lettering, images, colours })
 }
 
 fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
@@ -401,6 +408,9 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
         }
     };
     resolve(&mut scene.base, &mut scene.material, scene.mesh.as_mut());
+    for imprint in &mut scene.imprints {
+        imprint.font.iter_mut().chain(&mut imprint.image).for_each(beside_scene);
+    }
     if let Some(sequence) = &mut scene.sequence {
         beside_scene(&mut sequence.heights);
         sequence.colours.iter_mut().for_each(beside_scene);

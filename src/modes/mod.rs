@@ -117,8 +117,8 @@ pub fn start(loaded: &LoadedScene) -> Result<(Start, Option<Player>), ModeError>
     }
     // What stands beside it is still: nothing plays there.
     let reliefs = loaded.reliefs.iter().map(|relief| Ok(start(relief)?.0)).collect::<Result<_, ModeError>>()?;
-    let start = Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_reliefs(reliefs);
-    Ok((start, player))
+    let start = Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours);
+    Ok((start.with_images(loaded.images.clone()).with_reliefs(reliefs), player))
 }
 
 /// How the sources of a frame fare, whose GPU is idle.

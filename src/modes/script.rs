@@ -111,7 +111,7 @@ impl Replay {
         }
         let scene = frame.scene();
         let mut strokes = Strokes::of_scene(scene, scene.seed, &entry.tick);
-        entry.strokes.into_iter().for_each(|stroke| strokes.push(stroke));
+        strokes.add_hand(scene, &entry.strokes);
         let recorded = self.camera.filter(|_| !self.looks.moves_camera());
         let camera = recorded.unwrap_or_else(|| Camera::at(&scene.camera, entry.tick.time_seconds));
         Ok(Some(Moment { tick: entry.tick, strokes, camera }))

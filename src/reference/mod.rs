@@ -5,6 +5,7 @@
 
 pub mod balls;
 pub mod compose;
+pub mod cool;
 pub mod gas;
 pub mod gas_activity;
 pub mod gas_advect;
@@ -12,6 +13,7 @@ pub mod gas_emit;
 pub mod gas_force;
 pub mod gas_project;
 pub mod gas_show;
+pub mod heal;
 pub mod level_of_detail;
 pub mod light_disc;
 pub mod light_ggx;

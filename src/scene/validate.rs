@@ -5,9 +5,10 @@ use std::fmt;
 use crate::surface::Albedo;
 use crate::surface::view::BALLS_MAX;
 
+use super::stamping::{validate_imprints, validate_tracks};
 use super::{
-    Ball, Base, Camera, DirectionalLight, FieldSettings, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Plane,
-    RELIEFS_MAX, Relief, Scene, Shots, Text, Trace, VERSION, Wave, check_text, noise, sequence,
+    Ball, Base, Camera, DirectionalLight, Explosions, FieldSettings, Healing, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh,
+    Obstacle, Plane, RELIEFS_MAX, Relief, Scene, Shots, Text, Trace, VERSION, Wave, check_text, noise, sequence,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -118,7 +119,11 @@ impl Scene {
         self.shallow_water.as_ref().map_or(Ok(()), |water| water.validate(self))?;
         self.noise.as_ref().map_or(Ok(()), noise::validate)?;
         self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
-        self.shots.as_ref().map_or(Ok(()), validate_shots)?;
+        self.shots.as_ref().map_or(Ok(()), Shots::validate)?;
+        self.explosions.as_ref().map_or(Ok(()), Explosions::validate)?;
+        self.healing.as_ref().map_or(Ok(()), Healing::validate)?;
+        validate_tracks(&self.tracks)?;
+        validate_imprints(&self.imprints)?;
         validate_trace(&self.trace)?;
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
@@ -198,7 +203,14 @@ fn validate_reliefs(reliefs: &[Relief]) -> Result<(), SceneError> {
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Beach {} | Base::Fur {} | Base::Grass {} => Ok(()),
+        Base::Bricks {}
+        | Base::Cobbles {}
+        | Base::Facade {}
+        | Base::Snow {}
+        | Base::Terrain {}
+        | Base::Beach {}
+        | Base::Fur {}
+        | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
@@ -284,17 +296,6 @@ fn validate_obstacle(i: usize, obstacle: &Obstacle) -> Result<(), SceneError> {
     numbers(&key("half_extent_metres"), &obstacle.half_extent_metres, Range::above(0.0, 1e6, "metres"))?;
     number(key("corner_metres"), obstacle.corner_metres, Range::from_to(0.0, 1e6, "metres"))?;
     number(key("top"), obstacle.top, Range::from_to(0.0, 1.0, ""))
-}
-
-fn validate_shots(shots: &Shots) -> Result<(), SceneError> {
-    number("shots.per_second", shots.per_second, Range::from_to(0.0, 1e5, "per second"))?;
-    numbers("shots.radius_metres", &shots.radius_metres, Range::above(0.0, 1e6, "metres"))?;
-    let [smallest, largest] = shots.radius_metres;
-    if smallest > largest {
-        return refuse("shots.radius_metres", format!("[{smallest}, {largest}]"), "the smallest radius, then the largest");
-    }
-    number("shots.depth_metres", shots.depth_metres, Range::from_to(0.0, 1e6, "metres"))?;
-    number("shots.scorch", shots.scorch, Range::from_to(0.0, 1.0, ""))
 }
 
 fn validate_trace(trace: &Trace) -> Result<(), SceneError> {
@@ -393,8 +394,8 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 #[cfg(test)]
 mod tests {
     use super::super::{
-        Boundary, Columns, Dunes, FractalNoise, Gas, GasBands, GasBorder, GasEmitters, Gears, Lod, Noise, NoisePattern, Rain,
-        Scales, Sequence, Swing,
+        Boundary, Columns, Dunes, FractalNoise, Gas, GasBands, GasBorder, GasEmitters, Gears, Imprint, Lod, Noise, NoisePattern,
+        Rain, Scales, Sequence, Swing, Track,
     };
     use super::*;
 
@@ -421,6 +422,10 @@ mod tests {
                 emitters: Some(GasEmitters::default()),
                 ..Gas::default()
             }),
+            explosions: Some(Explosions::default()),
+            tracks: vec![Track::default()],
+            imprints: vec![Imprint { text: Some("R".to_owned()), ..Imprint::default() }],
+            healing: Some(Healing::default()),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             reliefs: vec![relief],

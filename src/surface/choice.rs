@@ -105,6 +105,8 @@ choices! {
         Bronze = "bronze", "albedo_bronze", "Bronze";
         /// Rounded stones.
         Cobble = "cobble", "albedo_cobble", "Cobble";
+        /// Plaster over bricks, steel, planks.
+        Facade = "facade", "albedo_facade", "Façade";
         /// A leopard's coat, dark toward the roots.
         Fur = "fur", "albedo_fur", "Fur";
         /// The clouds of a gas planet, by what the gas carries and how it flows.
@@ -115,6 +117,8 @@ choices! {
         Image = "image", "albedo_image", "Image";
         /// Rock, dust and ice of a planet without air.
         Planet = "planet", "albedo_planet", "Planet";
+        /// Snow that sparkles.
+        Snow = "snow", "albedo_snow", "Snow";
         /// Sand, winnowed pale on the crests.
         Sand = "sand", "albedo_sand", "Sand";
         /// Grass, forest, rock and snow, by height and slope.

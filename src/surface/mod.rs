@@ -57,6 +57,8 @@ pub struct Choice {
     pub covered: bool,
     /// Whether other reliefs cast their shadows on it.
     pub reliefs: bool,
+    /// Whether stamps may leave gloss and heat.
+    pub marks: bool,
     /// How many lights shine.
     pub lights: u32,
     /// Whether the sky is behind everything, not a studio.
@@ -83,6 +85,7 @@ impl Choice {
             reflects: false,
             covered: false,
             reliefs: false,
+            marks: false,
             lights: 1,
             sky_behind: false,
             views: false,
@@ -94,6 +97,7 @@ impl Choice {
         let (trace, material) = (&scene.trace, &scene.material);
         let (detail, balls) = (scene.lod.filters(), !scene.balls.is_empty());
         let reflects = material.reflection > 0.0;
+        let marks = scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty();
         Self {
             albedo: material.albedo,
             shading: material.model,
@@ -102,6 +106,7 @@ impl Choice {
             reflects,
             covered: scene.shallow_water.is_some(),
             reliefs: reliefs::are_seen(scene),
+            marks,
             // Validation refuses more lights than there is room for.
             lights: scene.all_lights().len() as u32,
             sky_behind: scene.light.background == Background::Sky,
@@ -147,6 +152,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
     let mut parts: Vec<String> = [
         "common/view",
         "common/noise",
+        "common/material",
         "common/heat",
         "surface/ray",
         "common/field",
@@ -171,6 +177,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         ("BALLS", choice.balls),
         ("REFLECTS", choice.reflects),
         ("RELIEFS", choice.reliefs),
+        ("MARKS", choice.marks),
         ("SKY_BEHIND", choice.sky_behind),
         ("VIEWS", choice.views),
         ("COVERED", choice.covered),
@@ -183,6 +190,25 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
             ("BRICK_HEIGHT", f64::from(field::base::BRICK_METRES[1])),
             ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
         ],
+        Albedo::Facade => {
+            let [plate, door] = [field::base::facade::PLATE_METRES, field::base::facade::DOOR_METRES];
+            vec![
+                ("FACADE_WIDTH", f64::from(field::base::facade::FACADE_METRES[0])),
+                ("FACADE_HEIGHT", f64::from(field::base::facade::FACADE_METRES[1])),
+                ("FACADE_PLATE_LEFT", f64::from(plate[0])),
+                ("FACADE_PLATE_UPPER", f64::from(plate[1])),
+                ("FACADE_PLATE_RIGHT", f64::from(plate[2])),
+                ("FACADE_PLATE_LOWER", f64::from(plate[3])),
+                ("FACADE_DOOR_LEFT", f64::from(door[0])),
+                ("FACADE_DOOR_UPPER", f64::from(door[1])),
+                ("FACADE_DOOR_RIGHT", f64::from(door[2])),
+                ("FACADE_DOOR_LOWER", f64::from(door[3])),
+                ("FACADE_PLANK", f64::from(field::base::facade::PLANK_METRES)),
+                ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
+                ("BRICK_HEIGHT", f64::from(field::base::BRICK_METRES[1])),
+                ("BRICK_JOINT", f64::from(field::base::BRICK_JOINT_METRES)),
+            ]
+        }
         Albedo::Cobble => vec![("COBBLE_SIZE", f64::from(field::base::COBBLE_METRES))],
         Albedo::Grass => vec![("DAISY_CELL", f64::from(field::base::DAISY_METRES))],
         Albedo::Plain
@@ -192,6 +218,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         | Albedo::Glass
         | Albedo::Image
         | Albedo::Planet
+        | Albedo::Snow
         | Albedo::Sand
         | Albedo::Terrain
         | Albedo::Water => Vec::new(),

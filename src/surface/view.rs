@@ -3,7 +3,7 @@
 use glam::{DMat3, DMat4, DVec4};
 
 use crate::camera::Camera;
-use crate::field::base;
+use crate::field::{base, material};
 use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
@@ -109,6 +109,8 @@ pub struct View {
     pub repeat: [f32; 2],
     pub slab_count: u32,
     pub own_slab: u32,
+    pub moment: f32,
+    pub glow: f32,
     pub detail: ViewDetail,
     pub slabs: [Slab; SLABS_MAX],
     pub slab_penumbra: f32,
@@ -190,6 +192,8 @@ impl View {
             forward_world: camera.forward().as_vec3().to_array(),
             balls,
             repeat: scene.plane.repeat.map(|times| times as f32),
+            moment: scene.cooling_seconds().map_or(0.0, |cooling_seconds| material::moment(time_seconds, cooling_seconds)),
+            glow: scene.explosions.as_ref().map_or(0.0, |explosions| explosions.glow),
             detail: ViewDetail::new(scene),
             ..Self::default()
         };

@@ -1,6 +1,7 @@
 //! How the height field comes to be.
 
 mod compose;
+mod cool;
 mod gas;
 mod gas_activity;
 mod gas_advect;
@@ -8,6 +9,7 @@ mod gas_emit;
 mod gas_force;
 mod gas_project;
 mod gas_show;
+mod heal;
 mod noise;
 mod noise_columns;
 mod noise_dunes;

@@ -69,8 +69,19 @@ pub const STAMP_HEIGHT: f64 = 8.0 * ULP;
 /// The same for many stamps on top of one another, for each of them.
 pub const STAMP_HEIGHT_EACH: f64 = 2.0 * ULP;
 
-/// Soot and bareness are unorm8: half a level, and the f32 rounding that decides which.
-pub const STAMP_MATERIAL: f64 = 0.5 / 255.0 + 1e-5;
+/// Soot, bareness, gloss and heat are whole levels: one where the reference meets a half and f32 decides otherwise, which the tests
+/// hold to be rare.
+pub const STAMP_MATERIAL: f64 = 1.0;
+
+/// A piece of a chain against a single sweep, in heights: the rounding of two profiles and their difference, some ten operations at
+/// 2⁻²⁴ of a height of 0.5, and of where the piece begins, 2⁻²⁴ · 128 texels at a slope of a tenth.
+pub const STAMP_CHAIN_EACH: f64 = 1.5e-6;
+
+/// What the same stamps may cost more on a field of four times the texels: on the smaller one a few more share a tile.
+pub const STAMP_COST_GROWTH: f64 = 1.35;
+
+/// Healing against its reference, in heights: a product and two sums.
+pub const HEAL_STEP: f64 = 3.0 * ULP;
 
 /// Volume of smooth profiles, relative: the project's bar.
 pub const STAMP_VOLUME: f64 = 1e-3;

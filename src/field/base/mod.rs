@@ -5,6 +5,7 @@
 //! `…_grass.wgsl`).
 
 mod beach;
+pub mod facade;
 mod landscape;
 pub mod lettering;
 mod masonry;
@@ -12,6 +13,7 @@ mod noise;
 mod ornament;
 mod outline;
 mod planet;
+mod snow;
 pub mod still_life;
 mod strands;
 mod terrain;
@@ -56,6 +58,11 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
             let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());
             Some(fill(&|x, y| 1.0 - cobbles_depth_metres(x, y, tile) / depth_metres))
         }
+        Base::Facade {} => Some(fill(&|x, y| 1.0 - facade::depth_metres(x, y) / depth_metres)),
+        Base::Snow {} => {
+            let extent = scene.plane_size_metres();
+            Some(fill(&|x, y| snow::height([x, y], extent, depth_metres, scene.seed)))
+        }
         Base::Terrain {} => {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
@@ -88,9 +95,6 @@ pub fn rest_height(base: &Base) -> f32 {
         _ => 1.0,
     }
 }
-
-/// The texel of [`crate::field::Material`] where a post stands: its third byte is full.
-pub const POST_MATERIAL: u32 = 0x00ff_0000;
 
 /// The texels on which the posts of a scene stand, with the height of their tops.
 pub fn posts(scene: &Scene) -> Vec<(usize, f32)> {

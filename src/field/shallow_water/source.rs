@@ -51,8 +51,8 @@ fn params(scene: &Scene, water: &scene::ShallowWater) -> ShallowWaterParams {
 }
 
 /// The rings that shots make in water: one a crater, twice as wide, half as deep.
-fn rings_of(presses: &[Stamp], depth_metres: f32) -> impl Iterator<Item = Event> {
-    let craters = presses.iter().filter(|stamp| matches!(stamp.profile, Profile::Crater));
+fn rings_of<'a>(presses: impl Iterator<Item = &'a Stamp>, depth_metres: f32) -> impl Iterator<Item = Event> {
+    let craters = presses.filter(|stamp| matches!(stamp.profile, Profile::Crater));
     craters.map(move |stamp| Event::dent(stamp.centre, 2.0 * stamp.radius, 0.5 * stamp.height.abs() * depth_metres, 0.8))
 }
 
@@ -91,7 +91,8 @@ impl Source for ShallowWaterSource {
         let beneath = *input.beneath != Dirty::Nothing;
         // What craters the ground pushes the water over it aside.
         let depth_metres = input.scene.plane.depth_metres;
-        let mut events: Vec<_> = rings_of(&input.strokes.presses, depth_metres).map(|ring| (0, ring)).collect();
+        let mut events: Vec<_> =
+            rings_of(input.strokes.presses.iter().chain(&input.strokes.hand), depth_metres).map(|ring| (0, ring)).collect();
         events.extend(&input.strokes.waters);
         self.published = self.water.record(recorder, &mut self.set, &spells, &events, beneath);
         if self.published && self.readback.is_none() {

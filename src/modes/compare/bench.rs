@@ -114,7 +114,7 @@ impl Bench {
         let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let material = texels.map(|(x, y)| material[row(y) + nearest(x, 0)]).collect();
         let (mesh, colours, reliefs) = (self.mesh.clone(), self.colours.clone(), self.reliefs.clone());
-        let start = Start { scene, heights, material, mesh, colours, reliefs };
+        let start = Start { scene, heights, material, mesh, colours, images: Vec::new(), reliefs };
         let image_size = self.frame.image_size();
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT)?;
         frame.timer = trusted_timer(gpu);

@@ -15,6 +15,8 @@ pub enum Action {
     Reset,
     /// The scene from its start, with another seed.
     NewSeed,
+    /// The last stroke of the brush taken back.
+    Undo,
     /// The scene of this place in the list.
     Scene(usize),
     /// The next thing to look at.
@@ -49,6 +51,8 @@ enum Trigger {
     Character(&'static str),
     /// A letter with shift.
     Shift(&'static str),
+    /// A letter with control.
+    Control(&'static str),
 }
 
 /// A key and its action.
@@ -72,6 +76,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     shortcut(".", "one step, paused", &[Trigger::Character(".")], Action::Step),
     shortcut("R", "reset the scene", &[Trigger::Character("r")], Action::Reset),
     shortcut("Shift+R", "reset it with a new seed", &[Trigger::Shift("r")], Action::NewSeed),
+    shortcut("Ctrl+Z", "take back the last stroke", &[Trigger::Control("z")], Action::Undo),
     shortcut("T", "next technique", &[Trigger::Character("t")], Action::NextTechnique),
     shortcut("V", "next view", &[Trigger::Character("v")], Action::NextView),
     shortcut("B", "split the screen, or not", &[Trigger::Character("b")], Action::ToggleSplit),
@@ -94,7 +99,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
 pub const GESTURES: &[(&str, &str)] = &[
     ("1 … 9", "choose a scene"),
     ("Drag the divider", "of a split screen"),
-    ("Left mouse", "drop, or shoot, where the surface is"),
+    ("Left mouse", "what the brush does, where the surface is"),
     ("Right mouse", "orbit, or look about in flight"),
     ("Middle, Shift+right", "pan"),
     ("Wheel", "nearer, or faster in flight"),
@@ -102,14 +107,17 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("W A S D, Q E", "fly: ahead, aside, down and up"),
 ];
 
-/// What a pressed key asks for. `shift` says whether it is held.
-pub fn action(key: &Key, shift: bool) -> Option<Action> {
-    if let Key::Character(text) = key
+/// What a pressed key asks for. `shift` and `control` say whether they are held.
+pub fn action(key: &Key, shift: bool, control: bool) -> Option<Action> {
+    if !control
+        && let Key::Character(text) = key
         && let Some(digit @ 1..=9) = text.parse::<usize>().ok()
     {
         return Some(Action::Scene(digit - 1));
     }
     let fits = |trigger: &Trigger| match (*trigger, key) {
+        (Trigger::Control(letter), Key::Character(text)) => control && !shift && text.to_lowercase() == letter,
+        _ if control => false,
         (Trigger::Named(name), Key::Named(pressed)) => name == *pressed,
         (Trigger::Shift(letter), Key::Character(text)) => shift && text.to_lowercase() == letter,
         (Trigger::Character(character), Key::Character(text)) => {
@@ -273,32 +281,41 @@ mod tests {
     fn every_shortcut_is_reached_by_its_keys_and_no_key_has_two() {
         for shortcut in SHORTCUTS {
             for trigger in shortcut.triggers {
-                let (key, shift) = match *trigger {
-                    Trigger::Named(name) => (Key::Named(name), false),
-                    Trigger::Character("?") => (character("?"), true),
-                    Trigger::Character(text) => (character(text), false),
-                    Trigger::Shift(text) => (character(&text.to_uppercase()), true),
+                let (key, shift, control) = match *trigger {
+                    Trigger::Named(name) => (Key::Named(name), false, false),
+                    Trigger::Character("?") => (character("?"), true, false),
+                    Trigger::Character(text) => (character(text), false, false),
+                    Trigger::Shift(text) => (character(&text.to_uppercase()), true, false),
+                    Trigger::Control(text) => (character(text), false, true),
                 };
-                assert_eq!(action(&key, shift), Some(shortcut.action), "{}", shortcut.keys);
+                assert_eq!(action(&key, shift, control), Some(shortcut.action), "{}", shortcut.keys);
             }
         }
     }
 
     #[test]
     fn digits_choose_scenes_and_others_are_left_alone() {
-        assert_eq!(action(&character("1"), false), Some(Action::Scene(0)));
-        assert_eq!(action(&character("9"), false), Some(Action::Scene(8)));
-        assert_eq!(action(&character("0"), false), None);
+        assert_eq!(action(&character("1"), false, false), Some(Action::Scene(0)));
+        assert_eq!(action(&character("9"), false, false), Some(Action::Scene(8)));
+        assert_eq!(action(&character("0"), false, false), None);
         for key in [NamedKey::F12, NamedKey::PrintScreen] {
-            assert_eq!(action(&Key::Named(key), false), None);
+            assert_eq!(action(&Key::Named(key), false, false), None);
         }
     }
 
     #[test]
     fn caps_lock_does_not_act_as_shift() {
-        assert_eq!(action(&character("R"), false), Some(Action::Reset));
-        assert_eq!(action(&character("R"), true), Some(Action::NewSeed));
-        assert_eq!(action(&character("T"), true), None);
+        assert_eq!(action(&character("R"), false, false), Some(Action::Reset));
+        assert_eq!(action(&character("R"), true, false), Some(Action::NewSeed));
+        assert_eq!(action(&character("T"), true, false), None);
+    }
+
+    #[test]
+    fn control_takes_back_and_does_nothing_else() {
+        assert_eq!(action(&character("z"), false, false), None);
+        for key in ["r", "1", "t"] {
+            assert_eq!(action(&character(key), false, true), None, "{key}");
+        }
     }
 
     #[test]

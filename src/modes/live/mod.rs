@@ -243,17 +243,18 @@ impl Open {
     fn key(&mut self, event: &KeyEvent, is_synthetic: bool) -> Option<Action> {
         let pressed = event.state == ElementState::Pressed;
         // Keys that were down when the window got the keyboard were not meant for it.
-        if is_synthetic && pressed
-            || self.modifiers.intersects(ModifiersState::CONTROL | ModifiersState::ALT | ModifiersState::SUPER)
-        {
+        if is_synthetic && pressed || self.modifiers.intersects(ModifiersState::ALT | ModifiersState::SUPER) {
             return None;
         }
-        if let PhysicalKey::Code(code) = event.physical_key {
+        let control = self.modifiers.control_key();
+        if let PhysicalKey::Code(code) = event.physical_key
+            && !(control && pressed)
+        {
             self.session.flight.note(code, pressed);
         }
         // A held key repeats where that is useful: stepping.
-        let action = input::action(&event.logical_key, self.modifiers.shift_key()).filter(|_| pressed);
-        action.filter(|&action| !event.repeat || action == Action::Step)
+        let action = input::action(&event.logical_key, self.modifiers.shift_key(), control).filter(|_| pressed);
+        action.filter(|&action| !event.repeat || matches!(action, Action::Step | Action::Undo))
     }
 
     fn act(&mut self, action: Action) {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::hand;
+use super::hand::Hand;
 use super::input::{Action, FlightKeys, Grip, Pointer, Repeat};
 use super::panel::Panel;
 use super::pick::Picker;
@@ -68,8 +68,9 @@ pub struct Session {
     clipped: Option<Readback>,
     /// Where the brush was pressed since the last frame.
     taps: Vec<DVec2>,
-    /// How many random strokes the hand has made.
-    hand_strokes: u64,
+    hand: Hand,
+    /// How many of its strokes are to be taken back.
+    undo: u32,
     single_step: bool,
     /// Whether the field went back to its start since the last frame.
     restarted: bool,
@@ -127,7 +128,8 @@ impl Session {
             picker: Picker::default(),
             clipped: None,
             taps: Vec::new(),
-            hand_strokes: 0,
+            hand: Hand::default(),
+            undo: 0,
             single_step: false,
             restarted: false,
             replay: None,
@@ -252,6 +254,11 @@ impl Session {
             }
             Action::Reset => self.restart(),
             Action::NewSeed => self.reseed(),
+            Action::Undo if self.undo < self.frame.groundwork().undoable() as u32 => {
+                self.hand.stop();
+                self.undo += 1;
+            }
+            Action::Undo => self.panel.say("Nothing to take back"),
             Action::Scene(index) => self.choose(index),
             Action::NextView => {
                 let shows = next(crate::surface::Shows::ALL, self.panel.display.shows);
@@ -290,7 +297,8 @@ impl Session {
         self.frame.reset(&self.gpu, &self.start);
         self.clock = Clock::new(self.frame.step_seconds());
         self.picker.forget();
-        self.hand_strokes = 0;
+        self.hand = Hand::default();
+        self.undo = 0;
     }
 
     fn reseed(&mut self) {
@@ -326,7 +334,8 @@ impl Session {
                 self.picker.forget();
                 self.readings.forget_passes();
                 self.clipped = None;
-                self.hand_strokes = 0;
+                self.hand = Hand::default();
+                self.undo = 0;
                 let description = self.panel.scene.description.clone();
                 self.panel.say(description);
             }
@@ -346,6 +355,7 @@ impl Session {
 
     /// A press of the brush at a pixel.
     pub fn tap(&mut self, pixel: DVec2) {
+        self.hand.begin();
         self.taps.push(pixel);
     }
 
@@ -364,7 +374,10 @@ impl Session {
         let scene = &self.panel.scene;
         let turns = scene.light.turn_degrees_per_second != 0.0
             || (self.rig.follows_scene() && (scene.camera.orbit_degrees_per_second != 0.0 || scene.camera.swing.is_some()));
-        let lives = !self.panel.paused && (kinds(scene).contains(&true) || scene.shots.is_some() || turns);
+        let presses =
+            scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty() || !scene.imprints.is_empty();
+        let heals = self.frame.groundwork().heals() || self.hand.waits();
+        let lives = !self.panel.paused && (kinds(scene).contains(&true) || presses || heals || turns);
         let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
         lives
             || hand
@@ -372,6 +385,7 @@ impl Session {
             || self.picker.waits()
             || self.single_step
             || !self.taps.is_empty()
+            || self.undo > 0
             || self.pacing == Pacing::Fixed
     }
 
@@ -421,12 +435,13 @@ impl Session {
         }
         let hand_seconds = if self.pacing == Pacing::Fixed { DT_SECONDS } else { elapsed_seconds };
         self.rig.fly(self.flight.movement(), hand_seconds);
-        let hand = self.hand(hand_seconds);
+        let touched = self.touched(hand_seconds);
         self.tick = self.tick(elapsed_seconds);
         let mut strokes = Strokes::of_scene(&self.panel.scene, self.panel.scene.seed, &self.tick);
+        let hand = self.strokes_of_hand(&touched);
         self.centred = self.rig.centred(self.tick.time_seconds);
         self.write_down(&hand);
-        hand.into_iter().for_each(|stroke| strokes.push(stroke));
+        strokes.add_hand(&self.panel.scene, &hand);
         let tick = self.tick;
         self.hand_images(&tick, &mut strokes);
         self.rig.set_aside(DVec2::new(0.5 * covered / f64::from(self.frame.image_size()[1]), 0.0));
@@ -503,6 +518,7 @@ impl Session {
         if let Some(seconds) = frame_seconds {
             self.readings.note_frame(seconds);
         }
+        self.panel.undoable = self.frame.groundwork().undoable();
         self.readings.time_seconds = self.tick.time_seconds;
         self.readings.steps = self.tick.owed.iter().map(|owed| owed.steps).sum();
         self.readings.image_size = self.frame.image_size();
@@ -542,8 +558,22 @@ impl Session {
         })
     }
 
-    /// What the hand did since the last frame. It works while paused too: then its strokes are all that changes.
-    fn hand(&mut self, seconds: f64) -> Vec<Stroke> {
+    /// What the hand does in this frame, where the brush touched the surface: first of all it takes back.
+    fn strokes_of_hand(&mut self, touched: &[[f32; 2]]) -> Vec<Stroke> {
+        let now_seconds = self.tick.time_seconds;
+        let mut strokes = vec![Stroke::Undo; std::mem::take(&mut self.undo) as usize];
+        let mut done: Vec<_> =
+            touched.iter().flat_map(|&at| self.hand.act(&self.panel.brush, &self.panel.scene, at, now_seconds)).collect();
+        done.extend(self.hand.due(now_seconds));
+        if !done.is_empty() {
+            strokes.push(Stroke::Number(self.hand.stroke_number()));
+            strokes.append(&mut done);
+        }
+        strokes
+    }
+
+    /// Where the brush touched the surface since the last frame. It works while paused too: then its strokes are all that changes.
+    fn touched(&mut self, seconds: f64) -> Vec<[f32; 2]> {
         let held = self.pointer.grip() == Some(Grip::Brush);
         let repeats = self.repeat.acts(held, seconds, f64::from(self.panel.brush.per_second));
         let mut pixels = std::mem::take(&mut self.taps);
@@ -560,14 +590,7 @@ impl Session {
         if let Err(error) = self.gpu.device.poll(poll) {
             log::warn!("the GPU does not answer: {error}");
         }
-        let mut strokes = Vec::new();
-        for lattice in self.picker.answers() {
-            if let Some(stroke) = hand::stroke(&self.panel.brush, &self.panel.scene, lattice, self.hand_strokes) {
-                strokes.push(stroke);
-                self.hand_strokes += 1;
-            }
-        }
-        strokes
+        self.picker.answers()
     }
 }
 

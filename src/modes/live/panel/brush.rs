@@ -5,21 +5,32 @@ use egui::Ui;
 use super::Panel;
 use super::widgets::{Control, choice, group, value};
 use crate::modes::live::hand::{Brush, BrushKind};
+use crate::modes::live::input::Action;
+use crate::scene::Struck;
 
 impl Panel {
-    pub(super) fn brush_group(&mut self, ui: &mut Ui) {
+    pub(super) fn brush_group(&mut self, ui: &mut Ui, actions: &mut Vec<Action>) {
         let was = Brush::of(&self.original);
         let brush = &mut self.brush;
         let changed = *brush != was;
         let kinds = BrushKind::of(&self.scene);
+        let undoable = self.undoable;
         let reset = group(ui, "Brush", true, Some(changed), |ui| {
             choice(ui, "Kind", "What the left mouse button does", &mut brush.kind, was.kind, &kinds, BrushKind::label);
+            if brush.kind == BrushKind::Shot {
+                choice(ui, "Hits", "What a shot breaks", &mut brush.material, was.material, Struck::ALL, Struck::label);
+            }
             let [least, most] = Brush::RADIUS_METRES.map(|metres| f64::from(metres) * 1e3);
             let control = Control::new("Radius", " mm", least, most).scale(1e3).decimals(1).logarithmic();
             value(ui, &control.tip("How large it is (Ctrl+wheel)"), &mut brush.radius_metres, was.radius_metres);
             let control =
                 Control::new("Rate", " /s", 1.0, 60.0).decimals(0).tip("How often while it is held; once a frame at most");
             value(ui, &control, &mut brush.per_second, was.per_second);
+            let undo = egui::Button::new(format!("Undo ({undoable})"));
+            let tip = "Take back the last stroke of the brush (Ctrl+Z); the number says how many can be";
+            if ui.add_enabled(undoable > 0, undo).on_hover_text(tip).clicked() {
+                actions.push(Action::Undo);
+            }
         });
         if reset {
             *brush = was;

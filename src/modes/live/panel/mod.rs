@@ -56,6 +56,8 @@ pub struct Panel {
     pub relief: usize,
     /// The left mouse button.
     pub brush: Brush,
+    /// How many strokes of the brush can be taken back.
+    pub undoable: usize,
     /// Whether the simulation stands.
     pub paused: bool,
     /// Whether the camera flies.
@@ -79,6 +81,7 @@ impl Panel {
             display: Display::default(),
             light: 0,
             relief: 0,
+            undoable: 0,
             paused: false,
             flies: false,
             shown: true,
@@ -205,7 +208,7 @@ impl Panel {
         self.noise_group(ui);
         self.sequence_group(ui);
         self.simulation_group(ui);
-        self.brush_group(ui);
+        self.brush_group(ui, actions);
         self.camera_group(ui, actions);
         group(ui, "Cost", true, None, |ui| readings::show(ui, readings));
         ui.add_space(12.0);

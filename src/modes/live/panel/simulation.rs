@@ -1,4 +1,4 @@
-//! The panel's group of what moves by itself: waves and rain, shots.
+//! The panel's group of what moves by itself: waves and rain, shots, charges.
 
 use egui::{RichText, Ui};
 
@@ -16,6 +16,7 @@ impl Panel {
         let changed = scene.wave != original.wave
             || scene.shallow_water != original.shallow_water
             || scene.shots != original.shots
+            || scene.explosions != original.explosions
             || scene.gas != original.gas;
         let reset = group(ui, "Simulation", true, Some(changed), |ui| {
             if let (Some(wave), Some(was)) = (&mut scene.wave, &original.wave) {
@@ -60,11 +61,29 @@ impl Panel {
                 let control = Control::new("Scorch", "", 0.0, 1.0).tip("How black the soot around it is");
                 value(ui, &control, &mut shots.scorch, was.scorch);
             }
+            if let (Some(explosions), Some(was)) = (&mut scene.explosions, &original.explosions) {
+                let control =
+                    Control::new("Charges", " /s", 0.0, 20.0).decimals(1).tip("Seeded charges that go off in the ground");
+                value(ui, &control, &mut explosions.per_second, was.per_second);
+                for (index, name) in ["Smallest charge", "Largest charge"].into_iter().enumerate() {
+                    let control =
+                        Control::new(name, " mm", 10.0, 1000.0).scale(1e3).decimals(0).tip("Radius of its crater's rim");
+                    value(ui, &control, &mut explosions.radius_metres[index], was.radius_metres[index]);
+                }
+                explosions.radius_metres[1] = explosions.radius_metres[1].max(explosions.radius_metres[0]);
+                let control = Control::new("Growth", " s", 0.0, 5.0).decimals(2).tip("From the flash to the crater's full size");
+                value(ui, &control, &mut explosions.growth_seconds, was.growth_seconds);
+                let control = Control::new("Reach", " radii", 0.0, 12.0).decimals(1).tip("How far the farthest clod flies");
+                value(ui, &control, &mut explosions.reach, was.reach);
+                let control = Control::new("Glow", " ×", 0.0, 50.0).decimals(1).tip("Radiance of what is hottest");
+                value(ui, &control, &mut explosions.glow, was.glow);
+            }
             if let (Some(gas), Some(was)) = (&mut scene.gas, &original.gas) {
                 gas_rows(ui, gas, was);
             }
-            let still = scene.wave.is_none() && scene.shallow_water.is_none() && scene.shots.is_none() && scene.gas.is_none();
-            if still {
+            let simulates = scene.wave.is_some() || scene.shallow_water.is_some() || scene.gas.is_some();
+            let presses = scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty();
+            if !simulates && !presses {
                 ui.label(RichText::new("Nothing moves by itself in this scene.").weak());
             }
         });
@@ -73,6 +92,7 @@ impl Panel {
             scene.shallow_water = original.shallow_water.clone();
             scene.shots = original.shots.clone();
             scene.gas = original.gas.clone();
+            scene.explosions = original.explosions.clone();
         }
     }
 }
