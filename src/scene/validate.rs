@@ -353,6 +353,7 @@ mod tests {
     fn full() -> Scene {
         let obstacle = Obstacle { centre: [0.5, 0.5], half_extent_metres: [0.1, 0.1], corner_metres: 0.0, top: 1.0 };
         Scene {
+            shallow_water: Some(crate::scene::ShallowWater::full()),
             wave: Some(Wave {
                 boundary: Boundary::Absorbing,
                 rain: Some(Rain::default()),
