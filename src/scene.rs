@@ -5,6 +5,7 @@
 
 mod bodies;
 mod framing;
+mod gas;
 mod layer;
 mod lights;
 mod lod;
@@ -23,6 +24,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use gas::{GAS_CELLS_MIN, GAS_VISCOSITY_MAX, Gas, GasBands, GasBorder, GasEmitters};
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
@@ -65,6 +67,8 @@ pub struct Scene {
     /// The height that the field starts from.
     #[serde(default)]
     pub base: Base,
+    /// A gas over it, if any.
+    pub gas: Option<Gas>,
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
@@ -412,6 +416,7 @@ impl Default for Scene {
             field: FieldSettings::default(),
             plane: Plane::default(),
             base: Base::default(),
+            gas: None,
             wave: None,
             shallow_water: None,
             noise: None,

@@ -5,6 +5,10 @@ use std::mem::{offset_of, size_of};
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::{ComposeLayer, ComposeParams};
+use rilievo::field::gas::GasParams;
+use rilievo::field::gas_emit::{GasBatch, GasPuff};
+use rilievo::field::gas_force::GasRow;
+use rilievo::field::gas_project::GasLevel;
 use rilievo::field::noise::{
     NoiseColumns, NoiseDunes, NoiseFractal, NoiseGear, NoiseGears, NoiseLattice, NoiseParams, NoiseScales, PATTERNS,
 };
@@ -32,8 +36,14 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 11] = [
+    let fixed: [&[&str]; 17] = [
         &["common/region", "field/compose"],
+        &["common/gas", "field/gas_activity"],
+        &["common/gas", "field/gas_advect"],
+        &["common/gas", "field/gas_emit"],
+        &["common/gas", "field/gas_force"],
+        &["field/gas_project"],
+        &["common/gas", "field/gas_show"],
         &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
@@ -230,6 +240,29 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("StampRecord", layout!(StampRecord { height, level, alpha, irregularity, phase, soot, bare, profile, blend })),
         ("StampTile", layout!(Tile { tile, first, count })),
         ("StampMember", layout!(Member { centre, radius, disc })),
+        (
+            "GasParams",
+            layout!(GasParams {
+                size,
+                tiles,
+                periodic,
+                coarse,
+                courant,
+                viscosity,
+                confinement,
+                buoyancy,
+                speed_limit,
+                confinement_floor,
+                stillness,
+                turning_per_speed,
+            }),
+        ),
+        ("GasRow", layout!(GasRow { wind, density, dye, wind_pull, calm_pull, gas_pull, turn_cosine, turn_sine })),
+        ("GasLevel", layout!(GasLevel { size, periodic, coarse, exchange, courant, tiles_across })),
+        ("GasPuff", layout!(GasPuff { velocity, spin, radius, density, dye })),
+        ("GasBatch", layout!(GasBatch { first, count })),
+        ("GasMember", layout!(Member { centre, radius, disc })),
+        ("GasEmitTile", layout!(Tile { tile, first, count })),
         (
             "ShallowWaterParams",
             layout!(ShallowWaterParams {

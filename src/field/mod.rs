@@ -25,6 +25,10 @@
 //! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | | | | *9 more with wave* | | |
+//! | gas | r32float | 4 | density, in units of the amplitude | gas | compose |
+//! | | | | *4 more with gas* | | |
+//!
+//! A gas holds 80 bytes a cell in buffers beside that: see [`gas`].
 //!
 //! A field that a simulation covers for its albedo has a row more: cover, rgba16float, 8 bytes a texel, 1×1 elsewhere. The bound on
 //! a still field, and on one with waves, is 40.
@@ -33,6 +37,15 @@ pub mod base;
 pub mod bins;
 pub mod compose;
 pub mod dirty;
+pub mod gas;
+pub mod gas_activity;
+pub mod gas_advect;
+pub mod gas_bands;
+pub mod gas_emit;
+pub mod gas_force;
+pub mod gas_project;
+pub mod gas_show;
+pub mod gas_source;
 pub mod noise;
 pub mod normal_mips;
 pub mod normals;
@@ -101,6 +114,7 @@ pub const CONTRACT: &[(Contract, u32)] =
 pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] = &[
     ("noise", noise::CONTRACT),
     ("sequence", sequence::CONTRACT),
+    ("gas", gas_source::CONTRACT),
     ("shallow water", shallow_water::CONTRACT),
     ("wave", wave::CONTRACT),
 ];

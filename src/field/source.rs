@@ -110,5 +110,6 @@ pub trait Source {
 pub fn step_seconds(scene: &Scene) -> StepSeconds {
     let wave = scene.wave.as_ref().map(|wave| super::wave::step_seconds(wave, scene.texel_metres()));
     let water = scene.shallow_water.as_ref().map(|water| f64::from(water.step_seconds));
-    [wave, water, None]
+    let gas = scene.gas.as_ref().map(|gas| f64::from(gas.step_seconds));
+    [wave, water, gas]
 }

@@ -19,6 +19,7 @@ macro_rules! embed {
 /// The parts that the binary carries, by name: the path under `shaders/` without its ending.
 pub const EMBEDDED: &[(&str, &str)] = embed! {
     "common/field"
+    "common/gas"
     "common/heat"
     "common/height_filtered"
     "common/height_loaded"
@@ -28,6 +29,12 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "common/shallow_water"
     "common/view"
     "field/compose"
+    "field/gas_activity"
+    "field/gas_advect"
+    "field/gas_emit"
+    "field/gas_force"
+    "field/gas_project"
+    "field/gas_show"
     "field/noise"
     "field/noise_columns"
     "field/noise_dunes"
@@ -49,6 +56,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/albedo_cobble"
     "surface/albedo_glass"
     "surface/albedo_fur"
+    "surface/albedo_gas"
     "surface/albedo_grass"
     "surface/albedo_image"
     "surface/albedo_plain"

@@ -181,6 +181,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         Albedo::Plain
         | Albedo::Bronze
         | Albedo::Fur
+        | Albedo::Gas
         | Albedo::Glass
         | Albedo::Image
         | Albedo::Planet

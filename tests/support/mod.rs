@@ -3,6 +3,7 @@
 #[cfg(target_os = "linux")]
 pub mod desktop;
 pub mod fields;
+pub mod gas;
 pub mod gpu;
 pub mod lights;
 pub mod lit;

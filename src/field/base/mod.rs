@@ -19,7 +19,7 @@ pub mod text;
 
 pub use lettering::{Lettering, LetteringError};
 pub use masonry::{BRICK_JOINT_METRES, BRICK_METRES, COBBLE_METRES};
-pub(crate) use noise::hash_cell;
+pub(crate) use noise::{gradient_octaves_3, hash_cell};
 pub use strands::DAISY_METRES;
 
 use super::wave;

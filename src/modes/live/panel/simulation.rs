@@ -3,6 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::Panel;
+use super::gas::gas_rows;
 use super::widgets::{Control, choice, group, value};
 use crate::scene::shallow_water::SUBSTEPS_MAX;
 use crate::scene::{Boundary, Rain, ShallowWater};
@@ -12,8 +13,10 @@ impl Panel {
         let (scene, original) = (&mut self.scene, &self.original);
         // Two sponges and a texel of water between them.
         let widest_sponge = f64::from(scene.field.size[0].min(scene.field.size[1]).saturating_sub(1) / 2).clamp(1.0, 256.0);
-        let changed =
-            scene.wave != original.wave || scene.shallow_water != original.shallow_water || scene.shots != original.shots;
+        let changed = scene.wave != original.wave
+            || scene.shallow_water != original.shallow_water
+            || scene.shots != original.shots
+            || scene.gas != original.gas;
         let reset = group(ui, "Simulation", true, Some(changed), |ui| {
             if let (Some(wave), Some(was)) = (&mut scene.wave, &original.wave) {
                 let control = Control::new("Wave speed", " m/s", 0.01, 2.0).logarithmic().tip("How fast waves travel");
@@ -57,7 +60,11 @@ impl Panel {
                 let control = Control::new("Scorch", "", 0.0, 1.0).tip("How black the soot around it is");
                 value(ui, &control, &mut shots.scorch, was.scorch);
             }
-            if scene.wave.is_none() && scene.shallow_water.is_none() && scene.shots.is_none() {
+            if let (Some(gas), Some(was)) = (&mut scene.gas, &original.gas) {
+                gas_rows(ui, gas, was);
+            }
+            let still = scene.wave.is_none() && scene.shallow_water.is_none() && scene.shots.is_none() && scene.gas.is_none();
+            if still {
                 ui.label(RichText::new("Nothing moves by itself in this scene.").weak());
             }
         });
@@ -65,6 +72,7 @@ impl Panel {
             scene.wave = original.wave.clone();
             scene.shallow_water = original.shallow_water.clone();
             scene.shots = original.shots.clone();
+            scene.gas = original.gas.clone();
         }
     }
 }
