@@ -53,12 +53,11 @@ fn covered_matter(point: SurfacePoint) -> Matter {
 
     // Bubbles of some texels, that thin out to lace before they are gone.
     let bubbles = noise_over(plane_metres(point.lattice), 0.22 / view.texel_metres, 71u);
-    let foam = smoothstep(0.85, 1.35, 1.1 * cover.y + bubbles) * wet;
+    let foam = smoothstep(0.95, 1.25, 1.15 * cover.y + bubbles) * wet;
     let shine = max(wet * 0.55, pool);
     return Matter(
-        mix(water, vec3f(0.60, 0.64, 0.66) * mix(0.72, 1.0, bubbles), foam),
-        // What water mirrors holds the sun already.
-        mix(matter.specular, 0.7 * (1.0 - pool) * (1.0 - foam), shine),
+        mix(water, vec3f(0.80, 0.84, 0.85), foam),
+        mix(matter.specular, 0.7 * (1.0 - foam), shine),
         mix(matter.shininess, 220.0, shine),
         mix(matter.glow, transparent_mirrored(point) * mirror, pool) * (1.0 - foam),
         mix(matter.roughness, 0.08, shine),
