@@ -71,7 +71,7 @@ fn a_state_of_another_run_is_refused() {
     };
     load(&["--scene", "ripples", "--field", "32"], "holds a field of 64×64");
     load(&["--scene", "ripples", "--field", "64", "--seed", "9"], "is of seed");
-    load(&["--scene", "bullet-wall", "--field", "64"], "is of the scene ripples");
+    load(&["--scene", "bullet-wall", "--field", "64", "--seed", "1"], "is of the scene ripples");
     load(&["--scene", "ripples", "--field", "64", "--depth", "0.3"], "`plane` is another");
     // What is looked at otherwise is the same field.
     capture(&out, &["--scene", "ripples", "--field", "64", "--load-state", &state, "--technique", "pom", "--shadow", "none"]);
