@@ -647,6 +647,16 @@ pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<()
         }
         Ok(())
     };
+    if let Some(gas) = &scene.gas {
+        // What a cell carries: sixteen bytes, in one buffer.
+        let cells = gas.cells(scene.field.size);
+        let limit = limits.max_storage_buffer_binding_size;
+        if 16 * u64::from(cells[0]) * u64::from(cells[1]) > limit {
+            let [width, height] = cells;
+            let remedy = "ask for a smaller field with --field, or for a larger coarsening of the gas in the scene";
+            return Err(FrameError::Limit { what: "a gas", width, height, limit, unit: "bytes in a buffer", remedy });
+        }
+    }
     readable("a field", scene.field.size, "ask for a smaller one with --field")?;
     readable("a picture", image_size, "ask for a smaller one with --size")
 }

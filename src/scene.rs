@@ -5,11 +5,13 @@
 
 mod bodies;
 mod framing;
+mod gas;
 mod layer;
 mod lights;
 mod lod;
 mod noise;
 mod sequence;
+pub mod shallow_water;
 mod techniques;
 mod text;
 mod validate;
@@ -22,6 +24,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use gas::{GAS_CELLS_MIN, GAS_VISCOSITY_MAX, Gas, GasBands, GasBorder, GasEmitters};
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
@@ -29,6 +32,7 @@ pub use noise::{
     ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
 };
 pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
+pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -63,9 +67,14 @@ pub struct Scene {
     /// The height that the field starts from.
     #[serde(default)]
     pub base: Base,
+    /// A gas over it, if any.
+    pub gas: Option<Gas>,
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
+    /// Shallow water over it, if any.
+    #[serde(default)]
+    pub shallow_water: Option<ShallowWater>,
     /// Procedural heights over the base, if any.
     #[serde(default)]
     pub noise: Option<Noise>,
@@ -152,6 +161,8 @@ pub enum Base {
     Cobbles {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Sand that rises from the sea in the south to dunes in the north.
+    Beach {},
     /// Short fur, combed, the same that the `fur` albedo colours.
     Fur {},
     /// A lawn with daisies, the same that the `grass` albedo colours.
@@ -405,7 +416,9 @@ impl Default for Scene {
             field: FieldSettings::default(),
             plane: Plane::default(),
             base: Base::default(),
+            gas: None,
             wave: None,
+            shallow_water: None,
             noise: None,
             sequence: None,
             shots: None,

@@ -5,12 +5,19 @@ use std::mem::{offset_of, size_of};
 use rilievo::field::Region;
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::compose::{ComposeLayer, ComposeParams};
+use rilievo::field::gas::GasParams;
+use rilievo::field::gas_emit::{GasBatch, GasPuff};
+use rilievo::field::gas_force::GasRow;
+use rilievo::field::gas_project::GasLevel;
 use rilievo::field::noise::{
     NoiseColumns, NoiseDunes, NoiseFractal, NoiseGear, NoiseGears, NoiseLattice, NoiseParams, NoiseScales, PATTERNS,
 };
 use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
+use rilievo::field::shallow_water::{
+    Event, ShallowWaterBatch, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSpell,
+};
 use rilievo::field::stamp::{Blend, Profile, StampParams, StampRecord};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
@@ -29,13 +36,23 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 7] = [
+    let fixed: [&[&str]; 17] = [
         &["common/region", "field/compose"],
+        &["common/gas", "field/gas_activity"],
+        &["common/gas", "field/gas_advect"],
+        &["common/gas", "field/gas_emit"],
+        &["common/gas", "field/gas_force"],
+        &["field/gas_project"],
+        &["common/gas", "field/gas_show"],
         &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
         &["common/noise", "field/stamp"],
         &["field/wave"],
+        &["common/shallow_water", "field/shallow_water"],
+        &["common/shallow_water", "field/shallow_water_disturb"],
+        &["common/shallow_water", "field/shallow_water_plan"],
+        &["common/shallow_water", "field/shallow_water_publish"],
         &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
@@ -223,6 +240,56 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("StampRecord", layout!(StampRecord { height, level, alpha, irregularity, phase, soot, bare, profile, blend })),
         ("StampTile", layout!(Tile { tile, first, count })),
         ("StampMember", layout!(Member { centre, radius, disc })),
+        (
+            "GasParams",
+            layout!(GasParams {
+                size,
+                tiles,
+                periodic,
+                coarse,
+                courant,
+                viscosity,
+                confinement,
+                buoyancy,
+                speed_limit,
+                confinement_floor,
+                stillness,
+                turning_per_speed,
+            }),
+        ),
+        ("GasRow", layout!(GasRow { wind, density, dye, wind_pull, calm_pull, gas_pull, turn_cosine, turn_sine })),
+        ("GasLevel", layout!(GasLevel { size, periodic, coarse, exchange, courant, tiles_across })),
+        ("GasPuff", layout!(GasPuff { velocity, spin, radius, density, dye })),
+        ("GasBatch", layout!(GasBatch { first, count })),
+        ("GasMember", layout!(Member { centre, radius, disc })),
+        ("GasEmitTile", layout!(Tile { tile, first, count })),
+        (
+            "ShallowWaterParams",
+            layout!(ShallowWaterParams {
+                size,
+                texel_metres,
+                depth_metres,
+                borders,
+                gravity,
+                friction,
+                dry_metres,
+                speed_cap,
+                courant,
+                rain,
+                seepage,
+                sea_metres,
+                foam_gain,
+                foam_loss,
+            }),
+        ),
+        (
+            "ShallowWaterControl",
+            layout!(ShallowWaterControl { speed, fault, remaining, dt, behind, rise, substeps, current, pending, halted }),
+        ),
+        ("ShallowWaterSpell", layout!(ShallowWaterSpell { seconds, swell_metres, swell_phase, swell_rate })),
+        ("ShallowWaterBatch", layout!(ShallowWaterBatch { first, count })),
+        ("ShallowWaterBody", layout!(ShallowWaterBody { low, high, level })),
+        ("ShallowWaterEvent", layout!(Event { centre, radius, kind, metres, foam })),
         ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
         ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
         ("WaveTile", layout!(Tile { tile, first, count })),

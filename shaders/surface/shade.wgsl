@@ -83,7 +83,7 @@ fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     let lit = visibilities_at(hit.lattice, height, position, normal, reference, is_cut);
     let toward_eye = normalize(view.eye_world - position);
     let point = SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x);
-    let matter = detail_matter(matter_at(point), over.w);
+    let matter = detail_matter(covered_matter(point), over.w);
 
     let open = sky_visibility(hit.lattice, height);
     var mirrored = vec3f(0.0);

@@ -16,7 +16,7 @@ use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 14] = [
+pub const EMBEDDED: [(&str, &str); 18] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -27,7 +27,11 @@ pub const EMBEDDED: [(&str, &str); 14] = [
     ("terrain", include_str!("../../scenes/terrain.toml")),
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
     ("cube", include_str!("../../scenes/cube.toml")),
+    ("gas-planet", include_str!("../../scenes/gas-planet.toml")),
     ("planet", include_str!("../../scenes/planet.toml")),
+    ("dam-break", include_str!("../../scenes/dam-break.toml")),
+    ("harbour", include_str!("../../scenes/harbour.toml")),
+    ("rain-on-cobbles", include_str!("../../scenes/rain-on-cobbles.toml")),
     ("columns", include_str!("../../scenes/columns.toml")),
     ("dunes", include_str!("../../scenes/dunes.toml")),
     ("clockwork", include_str!("../../scenes/clockwork.toml")),

@@ -5,6 +5,13 @@
 
 pub mod balls;
 pub mod compose;
+pub mod gas;
+pub mod gas_activity;
+pub mod gas_advect;
+pub mod gas_emit;
+pub mod gas_force;
+pub mod gas_project;
+pub mod gas_show;
 pub mod level_of_detail;
 pub mod light_disc;
 pub mod light_ggx;
@@ -26,6 +33,7 @@ pub mod shadow_hard;
 pub mod shadow_none;
 pub mod shadow_pom_soft;
 pub mod shadow_steep;
+pub mod shallow_water;
 pub mod shell;
 pub mod sky;
 pub mod stamp;

@@ -111,7 +111,9 @@ impl Scene {
         let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
         numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
         validate_base(&self.base)?;
+        self.gas.as_ref().map_or(Ok(()), |gas| super::gas::validate(gas, self))?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.shallow_water.as_ref().map_or(Ok(()), |water| water.validate(self))?;
         self.noise.as_ref().map_or(Ok(()), noise::validate)?;
         self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
         self.shots.as_ref().map_or(Ok(()), validate_shots)?;
@@ -156,7 +158,7 @@ pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], r
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
-        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Fur {} | Base::Grass {} => Ok(()),
+        Base::Bricks {} | Base::Cobbles {} | Base::Terrain {} | Base::Beach {} | Base::Fur {} | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
         Base::Text(text) => validate_text(text),
         Base::Image { path, .. } if path.as_os_str().is_empty() => refuse("base.path", "empty", "the path of a PNG or EXR file"),
@@ -345,7 +347,10 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Boundary, Columns, Dunes, FractalNoise, Gears, Lod, Noise, NoisePattern, Rain, Scales, Sequence};
+    use super::super::{
+        Boundary, Columns, Dunes, FractalNoise, Gas, GasBands, GasBorder, GasEmitters, Gears, Lod, Noise, NoisePattern, Rain,
+        Scales, Sequence,
+    };
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
@@ -360,6 +365,12 @@ mod tests {
             }),
             sequence: Some(Sequence { heights: "series".into(), ..Sequence::default() }),
             shots: Some(Shots::default()),
+            gas: Some(Gas {
+                border_u: GasBorder::Closed,
+                bands: Some(GasBands::default()),
+                emitters: Some(GasEmitters::default()),
+                ..Gas::default()
+            }),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
             ..Scene::default()

@@ -52,6 +52,8 @@ pub struct Choice {
     pub balls: bool,
     /// Whether the material mirrors its surroundings.
     pub reflects: bool,
+    /// Whether shallow water covers the ground.
+    pub covered: bool,
     /// How many lights shine.
     pub lights: u32,
     /// Whether the sky is behind everything, not a studio.
@@ -76,6 +78,7 @@ impl Choice {
             detail: false,
             balls: false,
             reflects: false,
+            covered: false,
             lights: 1,
             sky_behind: false,
             views: false,
@@ -93,6 +96,7 @@ impl Choice {
             detail,
             balls,
             reflects,
+            covered: scene.shallow_water.is_some(),
             // Validation refuses more lights than there is room for.
             lights: scene.all_lights().len() as u32,
             sky_behind: scene.light.background == Background::Sky,
@@ -127,6 +131,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "matter",
         "transparent",
         albedo.stem(),
+        "shallows",
         shading.stem(),
         "shade",
         if with_truth { "truth_exact" } else { "truth_none" },
@@ -161,6 +166,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         ("REFLECTS", choice.reflects),
         ("SKY_BEHIND", choice.sky_behind),
         ("VIEWS", choice.views),
+        ("COVERED", choice.covered),
     ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.push(("LIGHTS", f64::from(choice.lights)));
@@ -175,6 +181,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         Albedo::Plain
         | Albedo::Bronze
         | Albedo::Fur
+        | Albedo::Gas
         | Albedo::Glass
         | Albedo::Image
         | Albedo::Planet

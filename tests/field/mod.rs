@@ -1,6 +1,13 @@
 //! How the height field comes to be.
 
 mod compose;
+mod gas;
+mod gas_activity;
+mod gas_advect;
+mod gas_emit;
+mod gas_force;
+mod gas_project;
+mod gas_show;
 mod noise;
 mod noise_columns;
 mod noise_dunes;
@@ -10,5 +17,6 @@ mod noise_scales;
 mod normal_mips;
 mod normals;
 mod pyramid;
+mod shallow_water;
 mod stamp;
 mod wave;

@@ -50,6 +50,7 @@ fn a_wheel_turns_by_exactly_the_angle_of_its_speed() {
     for time in [0.013, 0.1, 1.0 / 3.0, 1.7, 1e6 + 0.013] {
         let turned = turned(gpu, &gears, &field, time, 0) - start;
         let off = apart(turned, f64::from(gears.turns_per_second) * time, 20.0);
+        println!("{time} s: {off:.1e} turns off");
         assert!(off <= GEAR_TURNS, "{time} s: {turned} turns, {off} off");
     }
 }
@@ -63,6 +64,7 @@ fn a_driven_wheel_turns_back_by_the_ratio_of_the_teeth() {
     for time in [0.02, 0.11, 3.3] {
         let turned = turned(gpu, &gears, &field, time, 1) - start;
         let off = apart(turned, -0.25 * time * 24.0 / 16.0, 16.0);
+        println!("{time} s: {off:.1e} turns off");
         // The neighbour's teeth reach over the pitch circle, in one of sixteen places.
         assert!(off <= 20.0 * GEAR_TURNS, "{time} s: {turned} turns, {off} off");
     }

@@ -11,10 +11,9 @@ impl Panel {
         let was = Brush::of(&self.original);
         let brush = &mut self.brush;
         let changed = *brush != was;
-        let has_water = self.scene.wave.is_some();
+        let kinds = BrushKind::of(&self.scene);
         let reset = group(ui, "Brush", true, Some(changed), |ui| {
-            let kinds = if has_water { BrushKind::ALL } else { &[BrushKind::Shot] };
-            choice(ui, "Kind", "What the left mouse button does", &mut brush.kind, was.kind, kinds, BrushKind::label);
+            choice(ui, "Kind", "What the left mouse button does", &mut brush.kind, was.kind, &kinds, BrushKind::label);
             let [least, most] = Brush::RADIUS_METRES.map(|metres| f64::from(metres) * 1e3);
             let control = Control::new("Radius", " mm", least, most).scale(1e3).decimals(1).logarithmic();
             value(ui, &control.tip("How large it is (Ctrl+wheel)"), &mut brush.radius_metres, was.radius_metres);

@@ -5,6 +5,7 @@
 mod brush;
 mod camera;
 mod detail;
+mod gas;
 mod keys;
 mod light;
 mod material;
