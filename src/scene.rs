@@ -10,8 +10,10 @@ mod layer;
 mod lights;
 mod lod;
 mod noise;
+mod reliefs;
 mod sequence;
 pub mod shallow_water;
+mod swing;
 mod techniques;
 mod text;
 mod validate;
@@ -31,8 +33,10 @@ pub use lod::{LOD_THRESHOLD, Lod};
 pub use noise::{
     ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
 };
+pub use reliefs::{RELIEFS_MAX, Relief};
 pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
 pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
+pub use swing::Swing;
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -105,6 +109,9 @@ pub struct Scene {
     /// Balls beside the relief, which cast shadows upon it and are mirrored in it.
     #[serde(default)]
     pub balls: Vec<Ball>,
+    /// Still reliefs beside it, seven at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reliefs: Vec<Relief>,
     /// Where it is seen from.
     #[serde(default)]
     pub camera: Camera,
@@ -384,6 +391,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// How it swings about that, if it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub swing: Option<Swing>,
     /// Metres a second that eye and target travel along x, y and z.
     #[serde(deserialize_with = "exactly")]
     pub fly_metres_per_second: [f64; 3],
@@ -429,6 +439,7 @@ impl Default for Scene {
             material: Material::default(),
             mesh: None,
             balls: Vec::new(),
+            reliefs: Vec::new(),
             camera: Camera::default(),
         }
     }
@@ -549,6 +560,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            swing: None,
             fly_metres_per_second: [0.0; 3],
         }
     }

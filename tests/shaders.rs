@@ -29,6 +29,7 @@ use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::raster::{Geometry, RasterVertex};
 use rilievo::surface::ray_map::LinearForm;
+use rilievo::surface::reliefs::Slab;
 use rilievo::surface::shell::ShellTriangle;
 use rilievo::surface::view::{Ball, ViewLight};
 use rilievo::surface::{self, Albedo, Choice, Shading, Shadow, Shows, Technique, View};
@@ -204,10 +205,15 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 forward_world,
                 balls,
                 repeat,
+                slab_count,
+                own_slab,
                 detail,
+                slabs,
+                slab_penumbra,
             }),
         ),
         ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),
+        ("Slab", layout!(Slab { middle, depth, along_u, half_extent_u, along_v, half_extent_v })),
         ("Ball", layout!(Ball { centre, radius, colour })),
         ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
         ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),

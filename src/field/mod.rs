@@ -36,6 +36,7 @@
 pub mod base;
 pub mod bins;
 pub mod compose;
+pub mod derive;
 pub mod dirty;
 pub mod gas;
 pub mod gas_activity;

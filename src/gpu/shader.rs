@@ -84,6 +84,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "surface/raster"
     "surface/ray"
     "surface/ray_map"
+    "surface/reliefs"
     "surface/shade"
     "surface/shadow_area"
     "surface/shadow_cone"

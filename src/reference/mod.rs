@@ -27,6 +27,7 @@ pub mod normal_mips;
 pub mod normals;
 pub mod pyramid;
 pub mod ray_map;
+pub mod reliefs;
 pub mod shadow_area;
 pub mod shadow_cone;
 pub mod shadow_hard;

@@ -11,6 +11,7 @@ pub mod micropolygon;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;
+pub mod reliefs;
 pub mod shell;
 pub mod stage;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
@@ -54,6 +55,8 @@ pub struct Choice {
     pub reflects: bool,
     /// Whether shallow water covers the ground.
     pub covered: bool,
+    /// Whether other reliefs cast their shadows on it.
+    pub reliefs: bool,
     /// How many lights shine.
     pub lights: u32,
     /// Whether the sky is behind everything, not a studio.
@@ -79,6 +82,7 @@ impl Choice {
             balls: false,
             reflects: false,
             covered: false,
+            reliefs: false,
             lights: 1,
             sky_behind: false,
             views: false,
@@ -97,6 +101,7 @@ impl Choice {
             balls,
             reflects,
             covered: scene.shallow_water.is_some(),
+            reliefs: reliefs::are_seen(scene),
             // Validation refuses more lights than there is room for.
             lights: scene.all_lights().len() as u32,
             sky_behind: scene.light.background == Background::Sky,
@@ -106,8 +111,8 @@ impl Choice {
 
     /// For what stands in a scene and is no relief.
     pub fn beside(scene: &Scene) -> Self {
-        let Self { lights, sky_behind, .. } = Self::of(scene);
-        Self { lights, sky_behind, ..Self::PLAIN }
+        let Self { lights, sky_behind, reliefs, .. } = Self::of(scene);
+        Self { lights, sky_behind, reliefs, ..Self::PLAIN }
     }
 
     /// The same for a view of what it traces.
@@ -127,6 +132,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         if caps_level { "level_cap" } else { technique.stem() },
         shadow.stem(),
         "sky",
+        "reliefs",
         "balls",
         "matter",
         "transparent",
@@ -164,6 +170,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         ("DETAIL", choice.detail),
         ("BALLS", choice.balls),
         ("REFLECTS", choice.reflects),
+        ("RELIEFS", choice.reliefs),
         ("SKY_BEHIND", choice.sky_behind),
         ("VIEWS", choice.views),
         ("COVERED", choice.covered),

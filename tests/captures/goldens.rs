@@ -7,10 +7,11 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 21] = [
+const GOLDENS: [(&str, &[&str]); 22] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("relief", &["--scene", "relief"]),
+    ("sidewalk", &["--scene", "sidewalk"]),
     ("fur", &["--scene", "fur"]),
     ("grass", &["--scene", "grass", "--technique", "steep"]),
     ("text", &["--scene", "text", "--field", "320x200"]),

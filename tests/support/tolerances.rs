@@ -324,3 +324,20 @@ pub const GEAR_TURNS: f64 = 1e-5;
 
 /// Modules by which straight-sided teeth may cut into each other where involutes would roll: 0.095 was measured.
 pub const GEAR_INTERFERENCE: f64 = 0.1;
+
+/// Distances from the eye of two reliefs in one pixel, relative, within which either may be seen: the depth buffer's f32, and the
+/// precision of a place on a ray, a ten-thousandth of a cell, where it grazes.
+pub const RELIEF_TIE: f64 = 1e-5;
+
+/// Share of pixels whose ray only just touches a relief, where rounding decides whether it goes on: as for the positions of captures.
+pub const TANGENT_SHARE_SEEN: f64 = 1e-3;
+
+/// Share of pixels in which a relief that is turned and moved together with camera and light may differ: where a ray or a shadow ray
+/// grazes, other roundings decide.
+pub const SAME_RELIEF_OFF_SHARE: f64 = 5e-3;
+
+/// Visibility behind the soft border of a rectangle against 2,000 directions of the light's disc: half as much again as was measured.
+pub const RELIEF_PENUMBRA: f64 = 0.02;
+
+/// The same at its corners, where the shares behind two borders are multiplied: twice what was measured.
+pub const RELIEF_CORNER: f64 = 0.045;

@@ -47,7 +47,10 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
     };
     match &scene.base {
         Base::Flat { height: level } => Some(vec![*level; width as usize * height as usize]),
-        Base::Bricks {} => Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y) / depth_metres)),
+        Base::Bricks {} => {
+            let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());
+            Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y, tile) / depth_metres))
+        }
         Base::Cobbles {} => {
             // Where the field wraps, so do the stones.
             let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());

@@ -363,7 +363,7 @@ impl Session {
     pub fn moves(&self) -> bool {
         let scene = &self.panel.scene;
         let turns = scene.light.turn_degrees_per_second != 0.0
-            || (self.rig.follows_scene() && scene.camera.orbit_degrees_per_second != 0.0);
+            || (self.rig.follows_scene() && (scene.camera.orbit_degrees_per_second != 0.0 || scene.camera.swing.is_some()));
         let lives = !self.panel.paused && (kinds(scene).contains(&true) || scene.shots.is_some() || turns);
         let hand = self.pointer.grip() == Some(Grip::Brush) || self.flight.movement() != glam::DVec3::ZERO && self.rig.flies();
         lives

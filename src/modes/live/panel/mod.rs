@@ -10,6 +10,7 @@ mod keys;
 mod light;
 mod material;
 mod noise;
+mod reliefs;
 mod scene;
 mod simulation;
 mod split;
@@ -51,6 +52,8 @@ pub struct Panel {
     pub display: Display,
     /// Which of the lights the panel shows, the scene's own is 0.
     pub light: usize,
+    /// Which of the reliefs beside the scene's own it shows.
+    pub relief: usize,
     /// The left mouse button.
     pub brush: Brush,
     /// Whether the simulation stands.
@@ -75,6 +78,7 @@ impl Panel {
             scenes,
             display: Display::default(),
             light: 0,
+            relief: 0,
             paused: false,
             flies: false,
             shown: true,
@@ -89,6 +93,7 @@ impl Panel {
         self.original = scene.clone();
         self.scene = scene;
         self.light = 0;
+        self.relief = 0;
     }
 
     /// Shows another view, on both sides of a divider.
@@ -196,6 +201,7 @@ impl Panel {
         self.detail_group(ui);
         self.light_group(ui);
         self.material_group(ui);
+        self.reliefs_group(ui);
         self.noise_group(ui);
         self.sequence_group(ui);
         self.simulation_group(ui);
