@@ -43,7 +43,8 @@ impl Camera {
     pub fn at(scene: &scene::Camera, time_seconds: f64) -> Self {
         let flown = DVec3::from(scene.fly_metres_per_second) * time_seconds;
         let (eye, target) = (DVec3::from(scene.eye) + flown, DVec3::from(scene.target) + flown);
-        let angle = (scene.orbit_degrees_per_second * time_seconds).rem_euclid(360.0).to_radians();
+        let swung = scene.swing.as_ref().map_or(0.0, |swing| swing.at(time_seconds));
+        let angle = (scene.orbit_degrees_per_second * time_seconds + swung).rem_euclid(360.0).to_radians();
         Self::look_at(turn_about(eye, target, angle), target, scene.vertical_fov_degrees.to_radians(), scene.near_metres)
     }
 
@@ -127,6 +128,19 @@ mod tests {
         assert_eq!(Camera::at(&scene, 0.0).eye(), DVec3::new(1.0, 1.0, 0.0));
         assert!(Camera::at(&scene, 1.0).eye().abs_diff_eq(DVec3::new(0.0, 1.0, 1.0), NEAR));
         assert_close(&Camera::at(&scene, 4.0), &Camera::at(&scene, 0.0));
+    }
+
+    #[test]
+    fn swings_to_either_side_and_back() {
+        let swing = Some(scene::Swing { degrees: 30.0, period_seconds: 8.0 });
+        let scene = scene::Camera { eye: [1.0, 1.0, 0.0], target: [0.0; 3], swing, ..Default::default() };
+        let azimuth = |time| {
+            let eye = Camera::at(&scene, time).eye();
+            eye.z.atan2(eye.x).to_degrees()
+        };
+        for (time, expected) in [(0.0, 0.0), (2.0, 30.0), (4.0, 0.0), (6.0, -30.0), (8.0, 0.0), (1.0, 30.0 * 0.5_f64.sqrt())] {
+            assert!((azimuth(time) - expected).abs() < 1e-9, "{time} s: {}", azimuth(time));
+        }
     }
 
     #[test]

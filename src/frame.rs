@@ -1,5 +1,7 @@
 //! One frame: from what was asked to radiance, top to bottom. [`Frame::record`] is the table of contents.
 
+mod reliefs;
+
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,22 +9,21 @@ use std::sync::Arc;
 use crate::camera::Camera;
 use crate::clock::{StepSeconds, Tick};
 use crate::field::bins::BinError;
+use crate::field::derive::{Derivation, Derive, DeriveSet};
 use crate::field::groundwork::Groundwork;
-use crate::field::normal_mips::{NormalMips, NormalMipsSet};
-use crate::field::normals::{Normals, NormalsSet};
-use crate::field::pyramid::{Pyramid, PyramidSet};
 use crate::field::sequence::Images;
 use crate::field::source::{self, Health, Source, State};
 use crate::field::stamp::StampImage;
 use crate::field::{self, Cover, Field, Region, Stack, base, material, normal_mips, normals, pyramid, stack};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
-use crate::mesh::{Mesh, Shape};
+use crate::mesh::{Mesh, shapes};
 use crate::present::{Present, PresentSet};
-use crate::scene::Scene;
+use crate::scene::{Plane, Scene};
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::{self, ColourImage};
 use crate::surface::surface::{Radiance, SurfaceSet};
 use crate::surface::{Choice, Display, Seen, Shows, Stage, Surface, Technique, View, ViewSet, shell, view};
+use reliefs::Stills;
 
 /// What a frame starts from: a scene whose field size is settled, and its layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +40,22 @@ pub struct Start {
     pub colours: Option<ColourImage>,
     /// The images that its stamps may have for their form.
     pub images: Vec<StampImage>,
+    /// What each of the reliefs beside it starts from, as the scene that it is alone.
+    pub reliefs: Vec<Start>,
 }
 
 impl Start {
     /// The start of a scene whose base has these heights, and whose mesh, if it has one, is this.
     pub fn new(scene: &Scene, heights: Vec<f32>, mesh: Option<Mesh>) -> Self {
-        let mut start =
-            Self { scene: scene.clone(), material: vec![0; heights.len()], heights, mesh, colours: None, images: Vec::new() };
+        let mut start = Self {
+            scene: scene.clone(),
+            material: vec![0; heights.len()],
+            heights,
+            mesh,
+            colours: None,
+            images: Vec::new(),
+            reliefs: Vec::new(),
+        };
         for (texel, top) in base::posts(scene) {
             start.heights[texel] = top;
             start.material[texel] = material::POST;
@@ -59,9 +69,13 @@ impl Start {
         if scene.seed != self.scene.seed
             && let Some(heights) = base::heights(scene)
         {
-            *self = Self::new(scene, heights, self.mesh.take()).with_colours(self.colours.take());
+            let reliefs = std::mem::take(&mut self.reliefs);
+            *self = Self::new(scene, heights, self.mesh.take()).with_colours(self.colours.take()).with_reliefs(reliefs);
         }
         self.scene = scene.clone();
+        for (start, relief) in self.reliefs.iter_mut().zip(&scene.reliefs) {
+            start.take_scene(&relief.alone(scene));
+        }
     }
 
     /// The same under a picture, if there is one.
@@ -72,6 +86,11 @@ impl Start {
     /// The same with images for its stamps.
     pub fn with_images(self, images: Vec<StampImage>) -> Self {
         Self { images, ..self }
+    }
+
+    /// The same beside these reliefs, as many as the scene has.
+    pub fn with_reliefs(self, reliefs: Vec<Start>) -> Self {
+        Self { reliefs, ..self }
     }
 }
 
@@ -108,7 +127,7 @@ pub enum FrameError {
     #[error("{what} of {width}×{height} is beyond this adapter's limit of {limit} {unit}; {remedy}")]
     Limit {
         /// What is too large.
-        what: &'static str,
+        what: String,
         /// Its width.
         width: u32,
         /// Its height.
@@ -144,17 +163,15 @@ pub struct Frame {
     right_view_set: ViewSet,
     stack: Stack,
     groundwork: Groundwork,
-    normals: Normals,
-    normals_set: NormalsSet,
-    normal_mips: NormalMips,
-    normal_mips_set: NormalMipsSet,
-    pyramid: Pyramid,
-    pyramid_set: PyramidSet,
+    derive: Derive,
+    derive_set: DeriveSet,
     /// One for each choice that was ever shown: switching back costs nothing.
     surfaces: HashMap<Choice, (Surface, SurfaceSet)>,
     /// What is seen beside and instead of the bare plane; none where the plane is all.
     stage: Option<Stage>,
     mesh: Option<Mesh>,
+    /// The reliefs beside it, as many as the scene has.
+    reliefs: Stills,
     /// The display whose pipelines were built last.
     built_for: Option<Display>,
     present: Present,
@@ -191,10 +208,9 @@ impl Frame {
         let [view_set, right_view_set] = [(); 2].map(|()| ViewSet::new(gpu, &view_layout, field.addressing));
         let stack = Stack::new(gpu, &field, &scene)?;
         let groundwork = Groundwork::new(gpu, &field, &scene, &start.images)?;
-        let (normals, pyramid) = (Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let (normals_set, pyramid_set) = (normals.bind(gpu, &field), pyramid.bind(gpu, &field));
-        let normal_mips = NormalMips::new(gpu)?;
-        let normal_mips_set = normal_mips.bind(gpu, &field);
+        let derive = Derive::new(gpu)?;
+        let derive_set = derive.bind(gpu, &field);
+        let reliefs = Stills::new(gpu, &derive, start)?;
         let present = Present::new(gpu, target)?;
         let radiance = Texture::new(gpu, traced_size(&scene, image_size));
         let present_set = present.bind(gpu, &radiance.view);
@@ -207,15 +223,12 @@ impl Frame {
             right_view_set,
             stack,
             groundwork,
-            normals,
-            normals_set,
-            normal_mips,
-            normal_mips_set,
-            pyramid,
-            pyramid_set,
+            derive,
+            derive_set,
             surfaces: HashMap::new(),
             stage: None,
             mesh: start.mesh.clone(),
+            reliefs,
             built_for: None,
             present,
             radiance,
@@ -235,6 +248,7 @@ impl Frame {
         self.field.material.write(gpu, &start.material);
         self.groundwork.reset(gpu, &start.heights);
         self.stack.reset(gpu, &self.scene);
+        self.reliefs.reset(gpu, start);
     }
 
     /// Builds every pass anew from the device's present shaders, and leaves the field as it is.
@@ -251,8 +265,7 @@ impl Frame {
             let set = surface.bind(gpu, &self.field);
             surfaces.insert(choice, (surface, set));
         }
-        let (normals, pyramid) = (Normals::new(gpu)?, Pyramid::new(gpu)?);
-        let normal_mips = NormalMips::new(gpu)?;
+        let derive = Derive::new(gpu)?;
         let present = Present::new(gpu, self.present.target())?;
         // WGSL that is valid may still not fit its pipeline: a binding or an entry point of another name.
         if let Some(message) = gpu.take_error() {
@@ -260,20 +273,20 @@ impl Frame {
         }
         if let Some(stage) = &mut self.stage {
             stage.forget_pipelines();
-            stage.prepare(gpu, &self.field, &self.scene, Shows::Picture, 0)?;
+            stage.prepare(gpu, &self.scene, Shows::Picture, 0)?;
         }
+        self.reliefs.reload(gpu)?;
         self.stack.reload(gpu, &self.field)?;
         self.groundwork.reload(gpu)?;
         // Nothing fails from here on. The bindings stay: layouts with the same entries are the same to wgpu.
         self.built_for = None;
         self.surfaces = surfaces;
-        (self.normals, self.pyramid, self.present) = (normals, pyramid, present);
-        self.normal_mips = normal_mips;
+        (self.derive, self.present) = (derive, present);
         Ok(())
     }
 
     /// Takes over what does not change the field's contents: trace, light, material, depth, the settings of its sources.
-    /// The field's size and addressing, and which sources there are, must be what they were.
+    /// The field's size and addressing, those of the reliefs beside it, and which sources there are, must be what they were.
     ///
     /// # Errors
     ///
@@ -283,6 +296,7 @@ impl Frame {
         debug_assert!(scene.field == self.scene.field && stack::kinds(scene) == stack::kinds(&self.scene));
         check_limits(gpu, scene, self.image_size)?;
         check_shell(scene, self.mesh.as_ref())?;
+        debug_assert!(scene.reliefs.len() == self.scene.reliefs.len(), "each relief has its field");
         let before = std::mem::replace(&mut self.scene, scene.clone());
         if let Err(error) = self.build_surface(gpu) {
             self.scene = before;
@@ -293,6 +307,9 @@ impl Frame {
         }
         if before.plane != scene.plane || stack::differ(&before, scene) || before.lod.filters() != scene.lod.filters() {
             self.stack.set_scene(gpu, scene);
+        }
+        if before.reliefs != scene.reliefs || before.lod.filters() != scene.lod.filters() {
+            self.reliefs.touch();
         }
         Ok(())
     }
@@ -353,7 +370,7 @@ impl Frame {
         }
         for (index, side) in sides.iter().enumerate() {
             if let Some(stage) = &mut self.stage {
-                stage.prepare(gpu, &self.field, &side.scene, side.display.shows, index)?;
+                stage.prepare(gpu, &side.scene, side.display.shows, index)?;
                 continue;
             }
             let choice = side.choice();
@@ -374,14 +391,11 @@ impl Frame {
 
     fn set_stage(&mut self, gpu: &Gpu) {
         let size = traced_size(&self.scene, self.image_size);
-        let mesh = self.mesh.clone().or_else(|| {
-            let plane = || Shape::Plane.mesh(self.scene.plane_size_metres().map(|metres| metres as f32));
-            self.scene.trace.shell.then(plane)
-        });
-        match &mut self.stage {
-            Some(stage) => stage.set_mesh(gpu, mesh),
-            None => self.stage = Some(Stage::new(gpu, &self.field, mesh, size)),
-        }
+        let scene = &self.scene;
+        let own = self.mesh.clone().or_else(|| shell_of_plane(scene, &scene.plane, scene.field.size));
+        let fields = || std::iter::once(&self.field).chain(self.reliefs.fields()).collect::<Vec<_>>();
+        let stage = self.stage.get_or_insert_with(|| Stage::new(gpu, &fields(), size));
+        stage.set_meshes(gpu, std::iter::once(own).chain(self.reliefs.meshes(scene)));
     }
 
     /// The mesh that carries the relief; none: the plane.
@@ -406,7 +420,7 @@ impl Frame {
 
     /// Depth over the texel's width and height: the slope of a height of 1 a texel.
     pub fn slope_per_height(&self) -> [f32; 2] {
-        slope_per_height(&self.scene)
+        slope_per_height(&self.scene.plane, self.scene.field.size)
     }
 
     /// Width and height of the picture, pixels.
@@ -449,6 +463,7 @@ impl Frame {
         if !changed.is_empty() {
             self.derive(recorder, &changed);
         }
+        self.reliefs.derive(recorder, &self.derive, &self.scene);
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
         Ok(())
@@ -492,18 +507,9 @@ impl Frame {
 
     /// Derives everything that depends on the heights alone, over the texels that changed.
     fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
-        let grown = |low, high| -> Vec<Region> {
-            changed.iter().flat_map(|region| region.grown(low, high, self.field.size, self.field.addressing)).collect()
-        };
-        // Everything below depends on that height alone: its slope, which a texel's neighbours see …
-        let leaning = grown(1, 1);
-        self.normals.record(recorder, &self.normals_set, &leaning, slope_per_height(&self.scene));
-        // … what is left of that from afar, where the scene looks so …
-        if self.scene.lod.filters() {
-            self.normal_mips.record(recorder, &self.normal_mips_set, &leaning);
-        }
-        // … and its bounds, which the cells before a texel see.
-        self.pyramid.record(recorder, &self.pyramid_set, &grown(1, 0));
+        let scene = &self.scene;
+        let (slope_per_height, with_mips) = (slope_per_height(&scene.plane, scene.field.size), scene.lod.filters());
+        self.derive.record(recorder, &self.derive_set, changed, Derivation { slope_per_height, with_mips });
     }
 
     /// Shows the field as it stands.
@@ -571,9 +577,10 @@ impl Frame {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
+        let reliefs = self.reliefs.memory_bytes() + self.stack.memory_bytes();
         self.field.memory_bytes()
             + self.groundwork.memory_bytes()
-            + self.stack.memory_bytes()
+            + reliefs
             + self.radiance.memory_bytes()
             + stage
             + 4 * width * height
@@ -621,16 +628,22 @@ fn traced_size(scene: &Scene, image_size: [u32; 2]) -> [u32; 2] {
 }
 
 /// Depth over the texel's width and height.
-fn slope_per_height(scene: &Scene) -> [f32; 2] {
-    let slope = scene.plane.depth_metres * scene.field.size[0] as f32 / scene.plane.width_metres;
+fn slope_per_height(plane: &Plane, field_size: [u32; 2]) -> [f32; 2] {
+    let slope = plane.depth_metres * field_size[0] as f32 / plane.width_metres;
     [slope, slope]
 }
 
+/// The plane as a mesh, where its shell is drawn.
+fn shell_of_plane(scene: &Scene, plane: &Plane, field_size: [u32; 2]) -> Option<Mesh> {
+    let tile_metres = plane.size_metres(field_size).map(|metres| metres as f32);
+    scene.trace.shell.then(|| shapes::repeated_plane(tile_metres, plane.repeat))
+}
+
 /// Checks a texture's size against the adapter.
-fn check_texture(gpu: &Gpu, what: &'static str, size: [u32; 2], remedy: &'static str) -> Result<(), FrameError> {
+fn check_texture(gpu: &Gpu, what: &str, size: [u32; 2], remedy: &'static str) -> Result<(), FrameError> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if size.iter().any(|&edge| edge > limit) {
-        let (limit, unit) = (u64::from(limit), "texels an axis");
+        let (limit, unit, what) = (u64::from(limit), "texels an axis", what.to_owned());
         return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit, remedy });
     }
     Ok(())
@@ -653,6 +666,10 @@ fn check_shell(scene: &Scene, mesh: Option<&Mesh>) -> Result<(), FrameError> {
 pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<(), FrameError> {
     let limits = gpu.device.limits();
     check_texture(gpu, "a field", scene.field.size, "ask for a smaller one with --field")?;
+    for (index, relief) in scene.reliefs.iter().enumerate() {
+        let what = format!("the field of `reliefs[{index}]`");
+        check_texture(gpu, &what, relief.field.size, "give it a smaller `field.size` in the scene")?;
+    }
     let ways_out = "ask for a smaller one with --size, or for less supersampling in the scene";
     let traced = image_size.map(|pixels| pixels.saturating_mul(scene.trace.supersampling));
     check_texture(gpu, "a picture", traced, ways_out)?;
@@ -661,10 +678,21 @@ pub fn check_limits(gpu: &Gpu, scene: &Scene, image_size: [u32; 2]) -> Result<()
         let row = u64::from((4 * size[0]).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
         if row * u64::from(size[1]) > limits.max_buffer_size {
             let limit = limits.max_buffer_size;
+            let what = str::to_owned(what);
             return Err(FrameError::Limit { what, width: size[0], height: size[1], limit, unit: "bytes", remedy });
         }
         Ok(())
     };
+    if let Some(gas) = &scene.gas {
+        // What a cell carries: sixteen bytes, in one buffer.
+        let cells = gas.cells(scene.field.size);
+        let limit = limits.max_storage_buffer_binding_size;
+        if 16 * u64::from(cells[0]) * u64::from(cells[1]) > limit {
+            let [width, height] = cells;
+            let remedy = "ask for a smaller field with --field, or for a larger coarsening of the gas in the scene";
+            return Err(FrameError::Limit { what: "a gas".to_owned(), width, height, limit, unit: "bytes in a buffer", remedy });
+        }
+    }
     readable("a field", scene.field.size, "ask for a smaller one with --field")?;
     readable("a picture", image_size, "ask for a smaller one with --size")
 }

@@ -59,6 +59,18 @@
 //! - **\[Welsh\]** T. Welsh, *Parallax Mapping with Offset Limiting: A Per-Pixel Approximation of Uneven Surfaces*, 2004.
 //! - **\[Policarpo\]** F. Policarpo, M. Oliveira, J. Comba, *Real-Time Relief Mapping on Arbitrary Polygonal Surfaces*, I3D 2005;
 //!   its depth bias as in F. Policarpo, M. Oliveira, *Relaxed Cone Stepping for Relief Mapping*, GPU Gems 3, 2007.
+//! - **\[Selle\]** A. Selle et al., *An Unconditionally Stable MacCormack Method*, Journal of Scientific Computing 35, 2008.
+//! - **\[Fedkiw\]** R. Fedkiw, J. Stam, H. W. Jensen, *Visual Simulation of Smoke*, SIGGRAPH 2001.
+//! - **\[Moore\]** D. W. Moore, P. G. Saffman, *Structure of a Line Vortex in an Imposed Strain*, in: Aircraft Wake Turbulence and Its
+//!   Detection, 1971.
+//! - **\[Zehnder\]** J. Zehnder, R. Narain, B. Thomaszewski, *An Advection-Reflection Solver for Detail-Preserving Fluid
+//!   Simulation*, SIGGRAPH 2018.
+//! - **\[Audusse\]** E. Audusse et al., *A Fast and Stable Well-Balanced Scheme with Hydrostatic Reconstruction for Shallow Water Flows*,
+//!   SIAM J. Sci. Comput. 25, 2004.
+//! - **\[KP\]** A. Kurganov, G. Petrova, *A Second-Order Well-Balanced Positivity Preserving Central-Upwind Scheme for the
+//!   Saint-Venant System*, Commun. Math. Sci. 5, 2007.
+//! - **\[Toro\]** E. F. Toro, *Shock-Capturing Methods for Free-Surface Shallow Flows*, 2001.
+//! - **\[Kennedy\]** A. Kennedy et al., *Boussinesq Modeling of Wave Transformation, Breaking, and Runup*, J. Waterway 126, 2000.
 
 pub mod camera;
 pub mod cli;

@@ -5,12 +5,16 @@
 
 mod bodies;
 mod framing;
+mod gas;
 mod layer;
 mod lights;
 mod lod;
 mod noise;
+mod reliefs;
 mod sequence;
+pub mod shallow_water;
 mod stamping;
+mod swing;
 mod techniques;
 mod text;
 mod validate;
@@ -23,14 +27,18 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 pub use bodies::{Ball, Mesh};
+pub use gas::{GAS_CELLS_MIN, GAS_VISCOSITY_MAX, Gas, GasBands, GasBorder, GasEmitters};
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};
 pub use lod::{LOD_THRESHOLD, Lod};
 pub use noise::{
     ColumnShape, Columns, Dunes, Fold, FractalNoise, GEARS_MAX, Gear, Gears, Noise, NoisePattern, OCTAVES_MAX, Scales,
 };
+pub use reliefs::{RELIEFS_MAX, Relief};
 pub use sequence::{Between, IMAGES_PER_SECOND, Playback, Sequence};
+pub use shallow_water::{Body, Border, Drops, Plunger, ShallowWater, Spring, Swell};
 pub use stamping::{Explosions, Healing, Imprint, Shots, Struck, Track, TrackMaker};
+pub use swing::Swing;
 pub use techniques::{PomCounts, PyramidLeaf};
 pub use text::{Text, TextRelief, check_text};
 pub use validate::{
@@ -65,9 +73,14 @@ pub struct Scene {
     /// The height that the field starts from.
     #[serde(default)]
     pub base: Base,
+    /// A gas over it, if any.
+    pub gas: Option<Gas>,
     /// Waves over the base, if any.
     #[serde(default)]
     pub wave: Option<Wave>,
+    /// Shallow water over it, if any.
+    #[serde(default)]
+    pub shallow_water: Option<ShallowWater>,
     /// Procedural heights over the base, if any.
     #[serde(default)]
     pub noise: Option<Noise>,
@@ -110,6 +123,9 @@ pub struct Scene {
     /// Balls beside the relief, which cast shadows upon it and are mirrored in it.
     #[serde(default)]
     pub balls: Vec<Ball>,
+    /// Still reliefs beside it, seven at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reliefs: Vec<Relief>,
     /// Where it is seen from.
     #[serde(default)]
     pub camera: Camera,
@@ -170,6 +186,8 @@ pub enum Base {
     Snow {},
     /// Hills with terraces, steps and spikes: a field that is hard to trace.
     Terrain {},
+    /// Sand that rises from the sea in the south to dunes in the north.
+    Beach {},
     /// Short fur, combed, the same that the `fur` albedo colours.
     Fur {},
     /// A lawn with daisies, the same that the `grass` albedo colours.
@@ -376,6 +394,9 @@ pub struct Camera {
     pub near_metres: f64,
     /// Degrees a second that the eye travels round the vertical through the target.
     pub orbit_degrees_per_second: f64,
+    /// How it swings about that, if it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub swing: Option<Swing>,
     /// Metres a second that eye and target travel along x, y and z.
     #[serde(deserialize_with = "exactly")]
     pub fly_metres_per_second: [f64; 3],
@@ -415,7 +436,9 @@ impl Default for Scene {
             field: FieldSettings::default(),
             plane: Plane::default(),
             base: Base::default(),
+            gas: None,
             wave: None,
+            shallow_water: None,
             noise: None,
             sequence: None,
             shots: None,
@@ -430,6 +453,7 @@ impl Default for Scene {
             material: Material::default(),
             mesh: None,
             balls: Vec::new(),
+            reliefs: Vec::new(),
             camera: Camera::default(),
         }
     }
@@ -544,6 +568,7 @@ impl Default for Camera {
             vertical_fov_degrees: 45.0,
             near_metres: 0.01,
             orbit_degrees_per_second: 0.0,
+            swing: None,
             fly_metres_per_second: [0.0; 3],
         }
     }

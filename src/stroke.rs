@@ -16,10 +16,13 @@ use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 use crate::clock::{Simulation, Tick};
+use crate::field::gas_bands::Bands;
+use crate::field::gas_emit::Puff;
 use crate::field::sequence::Images;
+use crate::field::shallow_water::{self, Event};
 use crate::field::stamp::{Blend, Profile, Stamp};
 use crate::field::wave::{self, Impulse};
-use crate::scene::{Rain, Scene};
+use crate::scene::{Gas, GasEmitters, Rain, Scene};
 
 /// One thing done to the field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +37,10 @@ pub enum Stroke {
     Number(u64),
     /// The hand's last stroke is taken back, before anything is pressed.
     Undo,
+    /// A puff into the gas.
+    Puff(Puff),
+    /// Something done to shallow water.
+    Water(Event),
 }
 
 /// All that is done to the field in one frame.
@@ -49,6 +56,10 @@ pub struct Strokes {
     pub stroke_number: u64,
     /// How many of the hand's last strokes are taken back, before anything is pressed.
     pub undo: u32,
+    /// The puffs, each with the step of the frame before which it falls.
+    pub puffs: Vec<(u32, Puff)>,
+    /// What is done to shallow water, each with the step of the frame before which it happens.
+    pub waters: Vec<(u32, Event)>,
     /// What the moment shows of a series of images, if the scene plays one: whoever reads files hands it over.
     pub images: Option<Arc<Images>>,
 }
@@ -61,6 +72,13 @@ impl Strokes {
             Stroke::Splash(impulse) => self.splashes.push((0, impulse)),
             Stroke::Number(number) => self.stroke_number = number,
             Stroke::Undo => self.undo += 1,
+            // Before those of the scene's own particles, which may fall later: the steps stay in order.
+            Stroke::Puff(puff) => self.puffs.insert(0, (0, puff)),
+            // In order of their steps: a hand's come after the scene's.
+            Stroke::Water(event) => {
+                let before = self.waters.partition_point(|(step, _)| *step == 0);
+                self.waters.insert(before, (0, event));
+            }
         }
     }
 
@@ -81,6 +99,21 @@ impl Strokes {
             for step in 0..owed.steps {
                 let impulses = rain_in_step(rain, seed, &lattice, step_seconds, owed.first_step + u64::from(step));
                 strokes.splashes.extend(impulses.map(|impulse| (step, impulse)));
+            }
+        }
+        if let Some((gas, emitters)) = scene.gas.as_ref().and_then(|gas| Some((gas, gas.emitters.as_ref()?))) {
+            let owed = tick.owed(Simulation::Gas);
+            for step in 0..owed.steps {
+                let puffs = emitted_in_step(gas, emitters, seed, &lattice, owed.first_step + u64::from(step));
+                strokes.puffs.extend(puffs.map(|puff| (step, puff)));
+            }
+        }
+        if let Some(water) = &scene.shallow_water {
+            let owed = tick.owed(Simulation::ShallowWater);
+            for step in 0..owed.steps {
+                let number = owed.first_step + u64::from(step);
+                let events = shallow_water::events_in_step(water, seed, &lattice, number);
+                strokes.waters.extend(events.map(|event| (step, event)));
             }
         }
         strokes.disturb(scene, seed, tick);
@@ -186,6 +219,55 @@ pub fn rain_in_step(
     })
 }
 
+/// What the particles that live in one step of the gas emit in it.
+///
+/// Particle k is born at time (k + U)/rate, U uniform, drifts with the wind of the row that it is born in, and emits most in the middle
+/// of its life. Each turns as a vortex does that the shear around it keeps alive.
+pub fn emitted_in_step(
+    gas: &Gas,
+    emitters: &GasEmitters,
+    seed: u64,
+    lattice: &Lattice,
+    step: u64,
+) -> impl Iterator<Item = Puff> + use<> {
+    let step_seconds = f64::from(gas.step_seconds);
+    let rate = f64::from(emitters.per_second);
+    let lifetime = f64::from(emitters.lifetime_seconds);
+    let now = (step as f64 + 0.5) * step_seconds;
+    let first = ((now - lifetime) * rate - 1.0).floor().max(0.0) as u64;
+    let born = if rate > 0.0 { first..(now * rate).ceil() as u64 + 1 } else { 0..0 };
+    let (lattice, emitters, bands) = (*lattice, emitters.clone(), gas.bands.clone());
+    let metres = lattice.size.map(|side| f64::from(side) * lattice.texel_metres);
+    born.filter_map(move |number| {
+        let mut random = Random::new(seed, Stream::Gas, number);
+        let age = now - (number as f64 + random.unit()) / rate;
+        if !(0.0..lifetime).contains(&age) {
+            return None;
+        }
+        // Not where the wind dies away.
+        let [u, v] = [random.unit(), random.between(0.14, 0.86)];
+        let size = random.between(0.4, 1.0);
+        let heading = random.between(0.0, std::f64::consts::TAU);
+        let dye = random.unit();
+        let bands = bands.as_ref().map(|bands| Bands::new(bands, seed));
+        let wind = |v: f64| bands.as_ref().map_or(0.0, |bands| bands.wind(v));
+        let shear = wind(v + 0.01) - wind(v - 0.01);
+        let at = [(u + wind(v) * age / metres[0]).rem_euclid(1.0), v];
+        let strength = (std::f64::consts::PI * age / lifetime).sin() * step_seconds;
+        let radius_metres = size * f64::from(emitters.radius_metres);
+        // The profile holds a third of the disc's area: that makes its middle what the settings say.
+        let mass = f64::from(emitters.density_per_second) * strength * std::f64::consts::PI * radius_metres.powi(2) / 3.0;
+        let push = f64::from(emitters.push) * strength;
+        Some(Puff {
+            centre: lattice.at(at),
+            radius: (radius_metres / lattice.texel_metres) as f32,
+            mass: [mass as f32, (mass * (dye - 0.4)) as f32],
+            velocity: [(push * heading.cos()) as f32, (push * heading.sin()) as f32],
+            spin: (-shear.signum() * f64::from(emitters.spin) * strength) as f32,
+        })
+    })
+}
+
 /// The discs that a stress test presses in a frame. Even frames press them in, odd frames lift the same ones again: the load is
 /// that of every frame, and the field neither saturates nor wears out.
 pub fn stress_discs(seed: u64, frame: u64, count: u32, radius: f32, size: [u32; 2]) -> impl Iterator<Item = Stamp> {
@@ -208,6 +290,10 @@ pub enum Stream {
     Stress,
     /// What a hand does in the window.
     Hand,
+    /// A gas's particles.
+    Gas,
+    /// Drops on shallow water.
+    Drops,
     /// A scene's charges.
     Explosions,
 }
@@ -308,6 +394,22 @@ mod tests {
         scene.wave.as_mut().unwrap().obstacles.clear();
         strokes.disturb_by_hand(&scene);
         assert!(strokes.hand.is_empty() && strokes.splashes.len() == 120);
+    }
+
+    #[test]
+    fn particles_are_a_function_of_the_step_and_live_their_time() {
+        let gas = Gas::default();
+        let emitters = GasEmitters { per_second: 2.0, lifetime_seconds: 4.0, ..GasEmitters::default() };
+        let lattice = Lattice::of_scene(&Scene::default());
+        let puffs = |seed, step| emitted_in_step(&gas, &emitters, seed, &lattice, step).collect::<Vec<_>>();
+        assert_eq!(puffs(3, 500), puffs(3, 500));
+        assert_ne!(puffs(3, 500), puffs(4, 500));
+        // Eight live at a time, one more or less; each emits for its four seconds, 120 steps of them.
+        let alive: Vec<usize> = (300..3300).map(|step| puffs(3, step).len()).collect();
+        assert!(alive.iter().all(|count| (7..=9).contains(count)), "{alive:?}");
+        assert_eq!(alive.iter().sum::<usize>() / 3000, 8 - usize::from(alive.iter().sum::<usize>() < 24_000));
+        let none = GasEmitters { per_second: 0.0, ..emitters.clone() };
+        assert_eq!(emitted_in_step(&gas, &none, 3, &lattice, 500).count(), 0);
     }
 
     #[test]

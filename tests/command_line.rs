@@ -206,7 +206,12 @@ fn limits_are_told() {
         }
         let sentence = refused(&rilievo(directory.path(), &["compare", "--out", "out", "--sweep-fields", "64,4000000000"]), 1);
         assert!(sentence.contains("4000000000") && sentence.contains("limit of"), "{sentence}");
-        assert_eq!(names(directory.path()), ["h.png"]);
+        // Of several reliefs the one that is too large is named.
+        let reliefs = "version = 1\n[[reliefs]]\n[[reliefs]]\n[reliefs.field]\nsize = [1000000, 8]\n";
+        fs::write(directory.path().join("s.toml"), reliefs).expect("the directory can be written");
+        let sentence = refused(&rilievo(directory.path(), &["capture", "--out", "out", "--scene", "s.toml"]), 1);
+        assert!(sentence.contains("the field of `reliefs[1]` of 1000000×8") && sentence.contains("limit of"), "{sentence}");
+        assert_eq!(names(directory.path()), ["h.png", "s.toml"]);
     }
 }
 

@@ -6,6 +6,10 @@ use rilievo::field::bins::{Member, Tile};
 use rilievo::field::blocks::Blocks;
 use rilievo::field::compose::{ComposeLayer, ComposeParams};
 use rilievo::field::cool::CoolParams;
+use rilievo::field::gas::GasParams;
+use rilievo::field::gas_emit::{GasBatch, GasPuff};
+use rilievo::field::gas_force::GasRow;
+use rilievo::field::gas_project::GasLevel;
 use rilievo::field::heal::HealParams;
 use rilievo::field::noise::{
     NoiseColumns, NoiseDunes, NoiseFractal, NoiseGear, NoiseGears, NoiseLattice, NoiseParams, NoiseScales, PATTERNS,
@@ -13,6 +17,9 @@ use rilievo::field::noise::{
 use rilievo::field::normal_mips::NormalMipsParams;
 use rilievo::field::normals::NormalsParams;
 use rilievo::field::pyramid::PyramidParams;
+use rilievo::field::shallow_water::{
+    Event, ShallowWaterBatch, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSpell,
+};
 use rilievo::field::stamp::{Blend, Profile, StampExtra, StampParams, StampRecord, Stamps};
 use rilievo::field::wave::{WaveBatch, WaveImpulse, WaveParams};
 use rilievo::gpu::Library;
@@ -24,6 +31,7 @@ use rilievo::surface::light_probe::{Lit, Matter};
 use rilievo::surface::probe::{Hit, Ray};
 use rilievo::surface::raster::{Geometry, RasterVertex};
 use rilievo::surface::ray_map::LinearForm;
+use rilievo::surface::reliefs::Slab;
 use rilievo::surface::shell::ShellTriangle;
 use rilievo::surface::view::{Ball, ViewLight};
 use rilievo::surface::{self, Albedo, Choice, Shading, Shadow, Shows, Technique, View};
@@ -31,8 +39,14 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 9] = [
+    let fixed: [&[&str]; 19] = [
         &["common/region", "field/compose"],
+        &["common/gas", "field/gas_activity"],
+        &["common/gas", "field/gas_advect"],
+        &["common/gas", "field/gas_emit"],
+        &["common/gas", "field/gas_force"],
+        &["field/gas_project"],
+        &["common/gas", "field/gas_show"],
         &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],
         &["common/region", "field/pyramid"],
@@ -40,6 +54,10 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/material", "field/cool"],
         &["common/material", "field/heal"],
         &["field/wave"],
+        &["common/shallow_water", "field/shallow_water"],
+        &["common/shallow_water", "field/shallow_water_disturb"],
+        &["common/shallow_water", "field/shallow_water_plan"],
+        &["common/shallow_water", "field/shallow_water_publish"],
         &["common/heat", "common/legend", "present"],
     ];
     let mut all: Vec<Vec<String>> = fixed.iter().map(|parts| parts.iter().map(|&part| part.to_owned()).collect()).collect();
@@ -193,10 +211,15 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 repeat,
                 moment,
                 glow,
+                slab_count,
+                own_slab,
                 detail,
+                slabs,
+                slab_penumbra,
             }),
         ),
         ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),
+        ("Slab", layout!(Slab { middle, depth, along_u, half_extent_u, along_v, half_extent_v })),
         ("Ball", layout!(Ball { centre, radius, colour })),
         ("RasterVertex", layout!(RasterVertex { position, u, normal, v, tangent, handedness, inward, metres_per_uv })),
         ("ShellTriangle", layout!(ShellTriangle { vertices, borders })),
@@ -252,6 +275,56 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("StampMember", layout!(Member { centre, radius, disc })),
         ("HealParams", layout!(HealParams { size, first_tile, tile_count, kept, closes, soot, gloss })),
         ("CoolParams", layout!(CoolParams { size, moment })),
+        (
+            "GasParams",
+            layout!(GasParams {
+                size,
+                tiles,
+                periodic,
+                coarse,
+                courant,
+                viscosity,
+                confinement,
+                buoyancy,
+                speed_limit,
+                confinement_floor,
+                stillness,
+                turning_per_speed,
+            }),
+        ),
+        ("GasRow", layout!(GasRow { wind, density, dye, wind_pull, calm_pull, gas_pull, turn_cosine, turn_sine })),
+        ("GasLevel", layout!(GasLevel { size, periodic, coarse, exchange, courant, tiles_across })),
+        ("GasPuff", layout!(GasPuff { velocity, spin, radius, density, dye })),
+        ("GasBatch", layout!(GasBatch { first, count })),
+        ("GasMember", layout!(Member { centre, radius, disc })),
+        ("GasEmitTile", layout!(Tile { tile, first, count })),
+        (
+            "ShallowWaterParams",
+            layout!(ShallowWaterParams {
+                size,
+                texel_metres,
+                depth_metres,
+                borders,
+                gravity,
+                friction,
+                dry_metres,
+                speed_cap,
+                courant,
+                rain,
+                seepage,
+                sea_metres,
+                foam_gain,
+                foam_loss,
+            }),
+        ),
+        (
+            "ShallowWaterControl",
+            layout!(ShallowWaterControl { speed, fault, remaining, dt, behind, rise, substeps, current, pending, halted }),
+        ),
+        ("ShallowWaterSpell", layout!(ShallowWaterSpell { seconds, swell_metres, swell_phase, swell_rate })),
+        ("ShallowWaterBatch", layout!(ShallowWaterBatch { first, count })),
+        ("ShallowWaterBody", layout!(ShallowWaterBody { low, high, level })),
+        ("ShallowWaterEvent", layout!(Event { centre, radius, kind, metres, foam })),
         ("WaveParams", layout!(WaveParams { size, velocity_kept, pull, courant_squared, damping, sponge_damping, sponge_width })),
         ("WaveImpulse", layout!(WaveImpulse { strength, ring })),
         ("WaveTile", layout!(Tile { tile, first, count })),

@@ -29,6 +29,16 @@ struct Ball {
     colour: vec3f,  // albedo, linear
 }
 
+// A flat relief as it casts shadows on others: a rectangle, h = 1, under which its field lies.
+struct Slab {
+    middle: vec3f,          // world, metres
+    depth: f32,             // of h = 0 below it, metres
+    along_u: vec3f,         // unit
+    half_extent_u: f32,     // metres; negative where it hides nothing
+    along_v: vec3f,
+    half_extent_v: f32,
+}
+
 struct View {
     // The ray of pixel (x, y) meets the plane at lattice position (lattice_x, lattice_y) / denominator, and travels
     // (travel_x, travel_y) / denominator while it falls from height 1 to 0. The denominator grows downward from 0 at the horizon.
@@ -105,7 +115,11 @@ struct View {
     repeat: vec2f,               // how often the plane shows the field along u and v
     moment: f32,                 // of the clock of heat: see common/material.wgsl
     glow: f32,                   // radiance of what glows fully
+    slab_count: u32,
+    own_slab: u32,               // that of the relief that is drawn
     detail: ViewDetail,
+    slabs: array<Slab, 8>,
+    slab_penumbra: f32,          // tangent of half the angle of the light's disc, as slabs see it
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

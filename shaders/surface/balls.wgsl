@@ -1,6 +1,6 @@
 // Balls: other objects than the relief, whose shadows fall upon it and whose images it reflects ([POM] fig. 13).
 //
-// Specification: src/reference/balls.rs. Composed after common/view.wgsl and surface/sky.wgsl. The balls are read where they lie: an
+// Specification: src/reference/balls.rs. Composed after common/view.wgsl, surface/sky.wgsl and surface/reliefs.wgsl. The balls are read where they lie: an
 // index that varies would keep the whole of the private `view` in memory.
 
 // Whether there are any. Fixed when the pipeline is built: a software adapter runs a loop's body once, whatever its condition.
@@ -41,9 +41,13 @@ fn ball_radiance(ball: Ball, position: vec3f, toward_eye: vec3f) -> vec3f {
     var radiance = ball.colour * sky_mean(normal);
     for (var i = 0u; i < LIGHTS; i++) {
         let source = view_light(i);
+        var arrives = 1.0;
+        if source.casts_shadow == 1u {
+            arrives = reliefs_visibility(position, source.toward);
+        }
         let halfway = normalize(toward_eye + source.toward);
         let highlight = 1.6 * pow(max(dot(normal, halfway), 0.0), 90.0) * step(0.0, dot(normal, source.toward));
-        radiance += source.radiance * (ball.colour * max(dot(normal, source.toward), 0.0) + highlight);
+        radiance += arrives * source.radiance * (ball.colour * max(dot(normal, source.toward), 0.0) + highlight);
     }
     return radiance;
 }

@@ -23,13 +23,16 @@ struct Shaded {
 }
 
 // Share of each light that reaches a point of the surface at a place in the world; 0 where the surface faces away from it. On a
-// cut through the relief nothing but the balls casts shadows.
+// cut through the relief nothing but balls and other reliefs casts shadows.
 fn visibilities_at(lattice: vec2f, height: f32, world: vec3f, normal: vec3f, reference: vec3f, is_cut: bool) -> vec4f {
     var arrives = vec4f(0.0);
     for (var i = 0u; i < LIGHTS; i++) {
         let source = view_light(i);
         if dot(normal, source.toward) > 0.0 && (is_cut || dot(reference, source.toward) > LIGHT_LEVEL) {
             var share = balls_visibility(world, source.toward);
+            if source.casts_shadow == 1u {
+                share *= reliefs_visibility(world, source.toward);
+            }
             if share > 0.0 && source.casts_shadow == 1u && !is_cut {
                 let direction = field_direction(source.toward, reference);
                 let way = direction.xy / direction.z;
@@ -85,7 +88,7 @@ fn shade_hit(ray: Ray, hit: Hit) -> Shaded {
     let lit = visibilities_at(hit.lattice, height, position, normal, reference, is_cut);
     let toward_eye = normalize(view.eye_world - position);
     let point = SurfacePoint(hit.lattice, position, height, normal, dot(normal, reference), toward_eye, lit.x);
-    var matter = detail_matter(matter_at(point), over.w);
+    var matter = detail_matter(covered_matter(point), over.w);
     if MARKS {
         matter = marked(matter, hit.lattice);
     }

@@ -17,9 +17,18 @@
 //! | | | | *4 more with noise* | | |
 //! | sequence | r32float | 4 | heights of the images, 0 to 1 | upload | compose |
 //! | | | | *4 more with sequence* | | |
+//! | water bed | r32float | 4 | height of what the water flows over, unclamped | compose | shallow water |
+//! | water depth (two) | rg32float | 16 | depth in metres, share of foam; in buffers | shallow water | shallow water |
+//! | water flow (two) | rg32float | 16 | depth times velocity, m²/s; in buffers | shallow water | shallow water |
+//! | water surface | r32float | 4 | height of the water, or of the bed where there is none, unclamped | shallow water | compose |
+//! | | | | *40 more with shallow water* | | |
 //! | wave mask | r8uint | 1 | whether a texel moves, and with which neighbours it exchanges | upload | wave |
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | | | | *9 more with wave* | | |
+//! | gas | r32float | 4 | density, in units of the amplitude | gas | compose |
+//! | | | | *4 more with gas* | | |
+//!
+//! A gas holds 80 bytes a cell in buffers beside that: see [`gas`].
 //!
 //! A field that a simulation covers for its albedo has a row more: cover, rgba16float, 8 bytes a texel, 1×1 elsewhere. The bound on
 //! a still field, and on one with waves, is 40.
@@ -30,7 +39,17 @@ pub mod bins;
 pub mod blocks;
 pub mod compose;
 pub mod cool;
+pub mod derive;
 pub mod dirty;
+pub mod gas;
+pub mod gas_activity;
+pub mod gas_advect;
+pub mod gas_bands;
+pub mod gas_emit;
+pub mod gas_force;
+pub mod gas_project;
+pub mod gas_show;
+pub mod gas_source;
 pub mod groundwork;
 pub mod heal;
 pub mod material;
@@ -40,6 +59,7 @@ pub mod normals;
 pub mod pyramid;
 pub mod region;
 pub mod sequence;
+pub mod shallow_water;
 pub mod source;
 pub mod stack;
 pub mod stamp;
@@ -99,8 +119,13 @@ pub const CONTRACT: &[(Contract, u32)] =
     &[(Relief::CONTRACT, 1), (Material::CONTRACT, 1), (Height::CONTRACT, 1), (Normal::CONTRACT, 1), (Pyramid::CONTRACT, 1)];
 
 /// What each kind of source adds to them.
-pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] =
-    &[("noise", noise::CONTRACT), ("sequence", sequence::CONTRACT), ("wave", wave::CONTRACT)];
+pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] = &[
+    ("noise", noise::CONTRACT),
+    ("sequence", sequence::CONTRACT),
+    ("gas", gas_source::CONTRACT),
+    ("shallow water", shallow_water::CONTRACT),
+    ("wave", wave::CONTRACT),
+];
 
 /// Bytes a texel of the field that textures take together.
 pub fn bytes_per_texel<'a>(contract: impl IntoIterator<Item = &'a (Contract, u32)>) -> f64 {

@@ -109,5 +109,7 @@ pub trait Source {
 /// The step of each simulation of a scene, seconds; none where it does not run.
 pub fn step_seconds(scene: &Scene) -> StepSeconds {
     let wave = scene.wave.as_ref().map(|wave| super::wave::step_seconds(wave, scene.texel_metres()));
-    [wave, None, None]
+    let water = scene.shallow_water.as_ref().map(|water| f64::from(water.step_seconds));
+    let gas = scene.gas.as_ref().map(|gas| f64::from(gas.step_seconds));
+    [wave, water, gas]
 }

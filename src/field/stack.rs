@@ -2,8 +2,10 @@
 
 use super::bins::BinError;
 use super::compose::{self, Compose, ComposeSet};
+use super::gas_source::GasSource;
 use super::noise::NoiseSource;
 use super::sequence::SequenceSource;
+use super::shallow_water::ShallowWaterSource;
 use super::source::{Health, Source, SourceInput, State};
 use super::wave::WaveSource;
 use super::{Dirty, Field, Region};
@@ -21,6 +23,12 @@ fn sources(gpu: &Gpu, field: &Field, scene: &Scene) -> Result<Vec<Box<dyn Source
     if scene.sequence.is_some() {
         sources.push(Box::new(SequenceSource::new(gpu, field.size)));
     }
+    if let Some(gas) = &scene.gas {
+        sources.push(Box::new(GasSource::new(gpu, field, scene, gas)?));
+    }
+    if let Some(water) = &scene.shallow_water {
+        sources.push(Box::new(ShallowWaterSource::new(gpu, field, scene, water)?));
+    }
     if let Some(wave) = &scene.wave {
         sources.push(Box::new(WaveSource::new(gpu, field, scene, wave)?));
     }
@@ -28,18 +36,18 @@ fn sources(gpu: &Gpu, field: &Field, scene: &Scene) -> Result<Vec<Box<dyn Source
 }
 
 /// Which sources a scene has. Scenes that agree in this differ in no more than what [`Source::set_scene`] takes over.
-pub fn kinds(scene: &Scene) -> [bool; 3] {
-    [scene.noise.is_some(), scene.sequence.is_some(), scene.wave.is_some()]
+pub fn kinds(scene: &Scene) -> [bool; 5] {
+    [scene.noise.is_some(), scene.sequence.is_some(), scene.gas.is_some(), scene.shallow_water.is_some(), scene.wave.is_some()]
 }
 
 /// Whether any source of two scenes of the same kinds has other settings.
 pub fn differ(a: &Scene, b: &Scene) -> bool {
-    a.noise != b.noise || a.sequence != b.sequence || a.wave != b.wave
+    a.noise != b.noise || a.sequence != b.sequence || a.gas != b.gas || a.shallow_water != b.shallow_water || a.wave != b.wave
 }
 
 /// Whether a source of the scene writes [`Cover`](super::Cover).
-pub fn covers(_scene: &Scene) -> bool {
-    false
+pub fn covers(scene: &Scene) -> bool {
+    scene.gas.is_some() || scene.shallow_water.is_some()
 }
 
 /// Layers that are composed together: those above a bed, or the relief, up to the next bed or the top.

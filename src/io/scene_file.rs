@@ -12,13 +12,13 @@ use super::mesh_file::{self, MeshError};
 use crate::field::base::{self, Lettering};
 use crate::field::stamp::StampImage;
 use crate::mesh::{Mesh, MeshSource};
-use crate::scene::{self, Base, Camera, Playback, PomCounts, PyramidLeaf, Scene, SceneError, Sequence, Text, VERSION};
+use crate::scene::{self, Base, Camera, Material, Playback, PomCounts, PyramidLeaf, Scene, SceneError, Sequence, Text, VERSION};
 use crate::suggest;
 use crate::surface::albedo_image::ColourImage;
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
 /// The scenes that come with the program: name and text. The first is the default.
-pub const EMBEDDED: [(&str, &str); 16] = [
+pub const EMBEDDED: [(&str, &str); 20] = [
     ("ripples", include_str!("../../scenes/ripples.toml")),
     ("bullet-wall", include_str!("../../scenes/bullet-wall.toml")),
     ("relief", include_str!("../../scenes/relief.toml")),
@@ -29,7 +29,11 @@ pub const EMBEDDED: [(&str, &str); 16] = [
     ("terrain", include_str!("../../scenes/terrain.toml")),
     ("depth-image", include_str!("../../scenes/depth-image.toml")),
     ("cube", include_str!("../../scenes/cube.toml")),
+    ("gas-planet", include_str!("../../scenes/gas-planet.toml")),
     ("planet", include_str!("../../scenes/planet.toml")),
+    ("dam-break", include_str!("../../scenes/dam-break.toml")),
+    ("harbour", include_str!("../../scenes/harbour.toml")),
+    ("rain-on-cobbles", include_str!("../../scenes/rain-on-cobbles.toml")),
     ("columns", include_str!("../../scenes/columns.toml")),
     ("dunes", include_str!("../../scenes/dunes.toml")),
     ("clockwork", include_str!("../../scenes/clockwork.toml")),
@@ -128,6 +132,8 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// The mesh that carries the relief; none: the plane.
     pub mesh: Option<Mesh>,
+    /// The reliefs beside it, each as the scene that it is alone.
+    pub reliefs: Vec<LoadedScene>,
     /// The files of its sequence, if it has one.
     pub sequence: Option<SequenceFiles>,
     image: Option<HeightImage>,
@@ -254,7 +260,7 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
     } else {
         let names = EMBEDDED.map(|(name, _)| name);
         let scene = embedded(which).ok_or_else(|| SceneFileError::Unknown(suggest::unknown("scene", which, &names)))?;
-        (scene, Given { field_size: true, camera: false })
+        (scene, Given { field_size: true, relief_sizes: Vec::new(), camera: false })
     };
     apply(&mut scene, overrides)?;
     prepare(which, scene, &given, overrides, image_size)
@@ -268,18 +274,45 @@ pub fn load(which: &str, overrides: &SceneOverrides, image_size: [u32; 2]) -> Re
 pub fn load_whole(mut scene: Scene, overrides: &SceneOverrides, image_size: [u32; 2]) -> Result<LoadedScene, SceneFileError> {
     overrides.look(&mut scene);
     let name = scene.name.clone();
-    prepare(&name, scene, &Given { field_size: true, camera: true }, &SceneOverrides::default(), image_size)
+    prepare(
+        &name,
+        scene,
+        &Given { field_size: true, relief_sizes: Vec::new(), camera: true },
+        &SceneOverrides::default(),
+        image_size,
+    )
 }
 
 /// Checks a scene and reads its files.
 fn prepare(
     which: &str,
-    mut scene: Scene,
+    scene: Scene,
     given: &Given,
     overrides: &SceneOverrides,
     image_size: [u32; 2],
 ) -> Result<LoadedScene, SceneFileError> {
     scene.validate().map_err(|error| SceneFileError::Invalid { name: which.to_owned(), error })?;
+    let mut loaded = {
+        let is_asked_for = overrides.height.is_some() || overrides.sequence.is_some() || !given.field_size;
+        contents(scene, overrides.field, !is_asked_for)?
+    };
+    // Scenes of the program's own say every size.
+    let sizes = given.relief_sizes.iter().copied().chain(std::iter::repeat(true));
+    for (index, is_given) in (0..loaded.scene.reliefs.len()).zip(sizes) {
+        let relief = contents(loaded.scene.reliefs[index].alone(&loaded.scene), None, is_given)?;
+        loaded.scene.reliefs[index].field.size = relief.scene.field.size;
+        loaded.reliefs.push(relief);
+    }
+    // A camera that someone chose stays where it is.
+    if overrides.camera.is_none() && !given.camera {
+        loaded.scene.camera = loaded.scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
+    }
+    Ok(loaded)
+}
+
+/// Reads what a scene, or a relief alone, is made from: images, font, mesh. The field's size is settled: as it is asked for, else as it
+/// is given, else the image's own.
+fn contents(mut scene: Scene, asked: Option<FieldSize>, is_given: bool) -> Result<LoadedScene, SceneFileError> {
     let image = match &scene.base {
         Base::Image { path, range } => Some(HeightImage::read(path, *range)?),
         _ => None,
@@ -292,23 +325,18 @@ fn prepare(
     let colours = scene.material.image.as_deref().map(colour_image::read).transpose()?;
     // What is played covers what it starts from.
     let image_size_texels = sequence.as_ref().map(SequenceFiles::size).or(image.as_ref().map(|image| image.size));
-    let is_asked_for = overrides.height.is_some() || overrides.sequence.is_some() || !given.field_size;
-    let own_size = image_size_texels.filter(|_| is_asked_for);
-    scene.field.size = match (overrides.field, own_size) {
+    let own_size = image_size_texels.filter(|_| !is_given);
+    scene.field.size = match (asked, own_size) {
         (Some(size), _) => field_size(size, image_size_texels),
         (None, Some(size)) => size,
         (None, None) => scene.field.size,
     };
-    // A camera that someone chose stays where it is.
-    if overrides.camera.is_none() && !given.camera {
-        scene.camera = scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
-    }
     let mesh = match &scene.mesh {
         Some(settings) => Some(load_mesh(settings, scene.plane_size_metres().map(|metres| metres as f32))?),
         None => None,
     };
     let images = imprint_image::load(&scene.imprints)?;
-    Ok(LoadedScene { scene, mesh, sequence, image, lettering, images, colours })
+    Ok(LoadedScene { scene, mesh, reliefs: Vec::new(), sequence, image, lettering, images, colours })
 }
 
 fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, MeshError> {
@@ -322,6 +350,8 @@ fn load_mesh(settings: &scene::Mesh, tile_metres: [f32; 2]) -> Result<Mesh, Mesh
 /// What a file says itself, where its absence means something else than a default value.
 struct Given {
     field_size: bool,
+    /// The same of each further relief.
+    relief_sizes: Vec<bool>,
     camera: bool,
 }
 
@@ -366,12 +396,18 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
             *file = path.parent().unwrap_or(Path::new("")).join(&file);
         }
     };
-    match &mut scene.base {
-        Base::Image { path, .. } => beside_scene(path),
-        Base::Text(text) => text.font.iter_mut().for_each(beside_scene),
-        _ => {}
-    }
-    scene.material.image.iter_mut().for_each(beside_scene);
+    let resolve = |base: &mut Base, material: &mut Material, mesh: Option<&mut scene::Mesh>| {
+        match base {
+            Base::Image { path, .. } => beside_scene(path),
+            Base::Text(text) => text.font.iter_mut().for_each(beside_scene),
+            _ => {}
+        }
+        material.image.iter_mut().for_each(beside_scene);
+        if let Some(mesh) = mesh {
+            mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
+        }
+    };
+    resolve(&mut scene.base, &mut scene.material, scene.mesh.as_mut());
     for imprint in &mut scene.imprints {
         imprint.font.iter_mut().chain(&mut imprint.image).for_each(beside_scene);
     }
@@ -379,11 +415,13 @@ fn read(path: &Path) -> Result<(Scene, Given), SceneFileError> {
         beside_scene(&mut sequence.heights);
         sequence.colours.iter_mut().for_each(beside_scene);
     }
-    if let Some(mesh) = &mut scene.mesh {
-        mesh.source.resolve(path.parent().unwrap_or(Path::new("")));
+    for relief in &mut scene.reliefs {
+        resolve(&mut relief.base, &mut relief.material, relief.mesh.as_mut());
     }
+    let has_size = |table: &toml::Value| table.get("field").is_some_and(|field| field.get("size").is_some());
+    let relief_sizes = table.get("reliefs").and_then(toml::Value::as_array).into_iter().flatten().map(has_size).collect();
     let field_size = table.get("field").is_some_and(|field| field.get("size").is_some());
-    Ok((scene, Given { field_size, camera: table.contains_key("camera") }))
+    Ok((scene, Given { field_size, relief_sizes, camera: table.contains_key("camera") }))
 }
 
 /// One sentence of the parser's words, with the name that was probably meant.
@@ -500,7 +538,7 @@ impl SceneOverrides {
             scene.trace.pyramid_leaf = leaf;
         }
         if let Some(CameraPlacement { eye, target }) = self.camera {
-            let still = Camera { orbit_degrees_per_second: 0.0, fly_metres_per_second: [0.0; 3], ..scene.camera };
+            let still = Camera { orbit_degrees_per_second: 0.0, swing: None, fly_metres_per_second: [0.0; 3], ..scene.camera };
             scene.camera = Camera { eye, target, ..still };
         }
         if let Some(fov) = self.vertical_fov_degrees {

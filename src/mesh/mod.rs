@@ -23,7 +23,7 @@ pub mod tangents;
 
 use std::ops::Range;
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 
 pub use shapes::Shape;
 pub use skin::Skin;
@@ -172,6 +172,18 @@ impl Mesh {
         }
         if let Some(skin) = &mut self.skin {
             skin.place(scale, centre);
+        }
+        self
+    }
+
+    /// The same mesh, turned and moved.
+    #[must_use]
+    pub fn moved(mut self, world_from_own: Mat4) -> Self {
+        for vertex in &mut self.vertices {
+            *vertex = skin::moved(vertex, world_from_own);
+        }
+        if let Some(skin) = &mut self.skin {
+            skin.move_by(world_from_own);
         }
         self
     }

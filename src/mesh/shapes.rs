@@ -63,6 +63,18 @@ pub fn plane(size_metres: [f32; 2]) -> Mesh {
     shape.finish(Shape::Plane)
 }
 
+/// The plane with so many tiles along u and v: one stays where the only one would be, the others surround it.
+pub fn repeated_plane(tile_metres: [f32; 2], repeat: [u32; 2]) -> Mesh {
+    let mut mesh = plane(tile_metres);
+    #[expect(clippy::cast_precision_loss, reason = "as texture coordinates they are f32")]
+    let repeat = Vec2::new(repeat[0] as f32, repeat[1] as f32);
+    for vertex in &mut mesh.vertices {
+        vertex.position *= Vec3::new(repeat.x, 1.0, repeat.y);
+        vertex.uv = 0.5 + (vertex.uv - 0.5) * repeat;
+    }
+    mesh
+}
+
 /// A box of this size, centred on the origin: six faces with normals of their own, whole tiles on each; two triangles a face. The
 /// sides have v down, top and bottom u along +x.
 pub fn cuboid(size_metres: Vec3, tile_metres: [f32; 2]) -> Mesh {

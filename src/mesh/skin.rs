@@ -205,7 +205,12 @@ impl Skin {
 
     /// Scales the mesh about a point that becomes the origin.
     pub(super) fn place(&mut self, scale: f32, centre: Vec3) {
-        self.mesh_from_file = Mat4::from_scale(Vec3::splat(scale)) * Mat4::from_translation(-centre) * self.mesh_from_file;
+        self.move_by(Mat4::from_scale(Vec3::splat(scale)) * Mat4::from_translation(-centre));
+    }
+
+    /// Moves the mesh.
+    pub(super) fn move_by(&mut self, matrix: Mat4) {
+        self.mesh_from_file = matrix * self.mesh_from_file;
     }
 }
 

@@ -218,7 +218,7 @@ fn write_files(
 pub fn read_channels(gpu: &Gpu, frame: &Frame, pass: &Channels, input: &FrameInput<'_>) -> Result<Vec<Numbers>, ModeError> {
     let [width, height] = frame.image_size();
     if let Some(stage) = frame.stage() {
-        let parts = stage.request_channels(gpu, &frame.field, &input.seen(frame.scene()), [width, height])?;
+        let parts = stage.request_channels(gpu, &input.seen(frame.scene()), [width, height])?;
         let parts = parts.iter().map(|part| wait_for(gpu, part)).collect::<Result<Vec<_>, _>>()?;
         let parts: Vec<Vec<[f32; 4]>> = parts.iter().map(|bytes| bytemuck::pod_collect_to_vec(bytes)).collect();
         return Ok((0..parts[0].len()).map(|i| Numbers::from_parts([parts[0][i], parts[1][i], parts[2][i]])).collect());

@@ -41,7 +41,9 @@ pub enum ModeError {
     #[error(transparent)]
     Shader(#[from] ShaderError),
     /// The specification does not say what the scene shows.
-    #[error("--truth reference knows the bare plane alone, and this scene has a mesh, a shell or balls: leave it out for exact")]
+    #[error(
+        "--truth reference knows the bare plane alone, and this scene has a mesh, a shell, balls or further reliefs: leave it out for exact"
+    )]
     NoReference,
     /// There is no such layer to export.
     #[error("--export {export} asks for what this scene does not have: leave it out, or name a scene that has it")]
@@ -113,7 +115,13 @@ pub fn start(loaded: &LoadedScene) -> Result<(Start, Option<Player>), ModeError>
         // Pictures of a series follow one another in a texture of the first one's size.
         colours = player.at(0.0)?.colours.as_deref().cloned().or(colours);
     }
-    Ok((Start::new(&loaded.scene, heights, loaded.mesh.clone()).with_colours(colours).with_images(loaded.images.clone()), player))
+    // What stands beside it is still: nothing plays there.
+    let reliefs = loaded.reliefs.iter().map(|relief| Ok(start(relief)?.0)).collect::<Result<_, ModeError>>()?;
+    let start = Start::new(&loaded.scene, heights, loaded.mesh.clone())
+        .with_colours(colours)
+        .with_images(loaded.images.clone())
+        .with_reliefs(reliefs);
+    Ok((start, player))
 }
 
 /// How the sources of a frame fare, whose GPU is idle.

@@ -12,7 +12,7 @@ use crate::io::state_file::{self, Part, SavedState, StateFileError};
 use crate::scene::Scene;
 
 /// What of a scene only says how its field is seen: two runs that differ in it alone have the same field.
-const LOOKS: [&str; 12] = [
+const LOOKS: [&str; 13] = [
     "name",
     "description",
     "trace",
@@ -22,6 +22,7 @@ const LOOKS: [&str; 12] = [
     "material",
     "mesh",
     "balls",
+    "reliefs",
     "camera",
     // Checked by themselves, with sentences of their own.
     "seed",

@@ -2,17 +2,24 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Camera, Scene};
+use super::{Camera, Plane, Scene};
 
 /// How much of the picture's half width and height the plane's corners may take: a little air remains around it.
 const MARGIN: f64 = 0.98;
 
+impl Plane {
+    /// Extent along x and z under a field of this size, metres: texels are square.
+    pub fn size_metres(&self, field_size: [u32; 2]) -> [f64; 2] {
+        let [width, height] = field_size.map(f64::from);
+        let x = f64::from(self.width_metres);
+        [x, x * height / width]
+    }
+}
+
 impl Scene {
     /// Extent of the plane along x and z, metres: texels are square.
     pub fn plane_size_metres(&self) -> [f64; 2] {
-        let [width, height] = self.field.size.map(f64::from);
-        let x = f64::from(self.plane.width_metres);
-        [x, x * height / width]
+        self.plane.size_metres(self.field.size)
     }
 
     /// Side of a texel, metres.
@@ -42,9 +49,14 @@ impl Scene {
         let half = [half_height * aspect, half_height];
 
         // A turning camera passes every side of the plane: 5° apart, the corners move by less than the margin.
-        let sides = if camera.orbit_degrees_per_second == 0.0 { 1 } else { 72 };
-        let distance = (0..sides)
-            .map(|side| DQuat::from_rotation_y(f64::from(side) * std::f64::consts::TAU / f64::from(sides)) * from_target)
+        let turns = match (&camera.swing, camera.orbit_degrees_per_second == 0.0) {
+            (None, true) => vec![0.0],
+            (Some(swing), true) => (-18..=18).map(|step| f64::from(step) / 18.0 * swing.degrees).collect(),
+            (_, false) => (0..72).map(|step| 5.0 * f64::from(step)).collect(),
+        };
+        let distance = turns
+            .into_iter()
+            .map(|degrees: f64| DQuat::from_rotation_y(degrees.to_radians()) * from_target)
             .flat_map(|away| {
                 balls.iter().map(move |(middle, radius)| distance_to_see(*middle - target, *radius, away.normalize(), half))
             })

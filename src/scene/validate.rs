@@ -7,8 +7,8 @@ use crate::surface::view::BALLS_MAX;
 
 use super::stamping::{validate_imprints, validate_tracks};
 use super::{
-    Ball, Base, Camera, DirectionalLight, Explosions, Healing, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh, Obstacle, Scene,
-    Shots, Text, Trace, VERSION, Wave, check_text, noise, sequence,
+    Ball, Base, Camera, DirectionalLight, Explosions, FieldSettings, Healing, LIGHTS_MAX, LOD_THRESHOLD, Light, Material, Mesh,
+    Obstacle, Plane, RELIEFS_MAX, Relief, Scene, Shots, Text, Trace, VERSION, Wave, check_text, noise, sequence,
 };
 
 /// Depth of the field below its plane. A thousand kilometres is no field any more, and f32 metres run out.
@@ -94,6 +94,16 @@ pub enum SceneError {
     },
 }
 
+impl SceneError {
+    /// The same of a key that stands in this table.
+    fn within(self, table: &str) -> Self {
+        match self {
+            Self::Value { key, value, allowed } => Self::Value { key: format!("{table}.{key}"), value, allowed },
+            Self::Version { .. } => self,
+        }
+    }
+}
+
 impl Scene {
     /// Checks every value against its range, and the stability of the wave.
     ///
@@ -102,17 +112,11 @@ impl Scene {
         if self.version != VERSION {
             return Err(SceneError::Version { found: self.version });
         }
-        if self.field.size.contains(&0) {
-            let [width, height] = self.field.size;
-            return refuse("field.size", format!("[{width}, {height}]"), "at least 1 texel wide and high");
-        }
-        number("plane.width_metres", self.plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
-        number("plane.depth_metres", self.plane.depth_metres, DEPTH_METRES)?;
-        // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
-        let most = (1 << 24) / self.field.size[0].max(self.field.size[1]);
-        numbers("plane.repeat", &self.plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
-        validate_base(&self.base)?;
+        let brings_colours = self.sequence.as_ref().is_some_and(|sequence| sequence.colours.is_some());
+        validate_relief(&self.field, &self.plane, &self.base, &self.material, self.mesh.as_ref(), brings_colours)?;
+        self.gas.as_ref().map_or(Ok(()), |gas| super::gas::validate(gas, self))?;
         self.wave.as_ref().map_or(Ok(()), validate_wave)?;
+        self.shallow_water.as_ref().map_or(Ok(()), |water| water.validate(self))?;
         self.noise.as_ref().map_or(Ok(()), noise::validate)?;
         self.sequence.as_ref().map_or(Ok(()), sequence::validate)?;
         self.shots.as_ref().map_or(Ok(()), Shots::validate)?;
@@ -124,10 +128,8 @@ impl Scene {
         self.lod.threshold.map_or(Ok(()), |threshold| number("lod.threshold", threshold, LOD_THRESHOLD))?;
         validate_light(&self.light)?;
         validate_lights(&self.lights)?;
-        let brings_colours = self.sequence.as_ref().is_some_and(|sequence| sequence.colours.is_some());
-        validate_material(&self.material, brings_colours || matches!(self.base, Base::StillLife {}))?;
-        self.mesh.as_ref().map_or(Ok(()), validate_mesh)?;
         validate_balls(&self.balls)?;
+        validate_reliefs(&self.reliefs)?;
         validate_camera(&self.camera)
     }
 }
@@ -158,6 +160,46 @@ pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], r
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }
 
+/// What every relief has, the scene's own and those beside it.
+fn validate_relief(
+    field: &FieldSettings,
+    plane: &Plane,
+    base: &Base,
+    material: &Material,
+    mesh: Option<&Mesh>,
+    brings_colours: bool,
+) -> Result<(), SceneError> {
+    if field.size.contains(&0) {
+        let [width, height] = field.size;
+        return refuse("field.size", format!("[{width}, {height}]"), "at least 1 texel wide and high");
+    }
+    number("plane.width_metres", plane.width_metres, Range::above(0.0, 1e6, "metres"))?;
+    number("plane.depth_metres", plane.depth_metres, DEPTH_METRES)?;
+    // A lattice position of 2²⁴ is the last that f32 tells from its neighbours.
+    let most = (1 << 24) / field.size[0].max(field.size[1]);
+    numbers("plane.repeat", &plane.repeat, Range::from_to(1.0, f64::from(most.max(1)), "times"))?;
+    validate_base(base)?;
+    validate_material(material, brings_colours || matches!(base, Base::StillLife {}))?;
+    mesh.map_or(Ok(()), validate_mesh)
+}
+
+fn validate_reliefs(reliefs: &[Relief]) -> Result<(), SceneError> {
+    if reliefs.len() > RELIEFS_MAX {
+        let allowed = format!("at most {RELIEFS_MAX} beside the scene's own: remove some");
+        return refuse("reliefs", format!("a list of {}", reliefs.len()), allowed);
+    }
+    reliefs.iter().enumerate().try_for_each(|(i, relief)| {
+        let own = format!("reliefs[{i}]");
+        numbers(&format!("{own}.position_metres"), &relief.position_metres, Range::from_to(-1e6, 1e6, "metres"))?;
+        let turn = Range::from_to(-3600.0, 3600.0, "degrees");
+        number(format!("{own}.yaw_degrees"), relief.yaw_degrees, turn)?;
+        number(format!("{own}.pitch_degrees"), relief.pitch_degrees, turn)?;
+        number(format!("{own}.roll_degrees"), relief.roll_degrees, turn)?;
+        let Relief { field, plane, base, material, mesh, .. } = relief;
+        validate_relief(field, plane, base, material, mesh.as_ref(), false).map_err(|error| error.within(&own))
+    })
+}
+
 fn validate_base(base: &Base) -> Result<(), SceneError> {
     match base {
         Base::Flat { height } => number("base.height", *height, Range::from_to(0.0, 1.0, "")),
@@ -166,6 +208,7 @@ fn validate_base(base: &Base) -> Result<(), SceneError> {
         | Base::Facade {}
         | Base::Snow {}
         | Base::Terrain {}
+        | Base::Beach {}
         | Base::Fur {}
         | Base::Grass {} => Ok(()),
         Base::Landscape {} | Base::Planet {} | Base::Ornament {} | Base::StillLife {} => Ok(()),
@@ -340,19 +383,30 @@ fn validate_camera(camera: &Camera) -> Result<(), SceneError> {
         camera.orbit_degrees_per_second,
         Range::from_to(-3600.0, 3600.0, "degrees per second"),
     )?;
+    if let Some(swing) = &camera.swing {
+        // Beyond a quarter turn it would look at the back of things after all.
+        number("camera.swing.degrees", swing.degrees, Range::from_to(-90.0, 90.0, "degrees"))?;
+        number("camera.swing.period_seconds", swing.period_seconds, Range::from_to(0.1, 3600.0, "seconds"))?;
+    }
     numbers("camera.fly_metres_per_second", &camera.fly_metres_per_second, Range::from_to(-1e4, 1e4, "metres per second"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{
-        Boundary, Columns, Dunes, FractalNoise, Gears, Imprint, Lod, Noise, NoisePattern, Rain, Scales, Sequence, Track,
+        Boundary, Columns, Dunes, FractalNoise, Gas, GasBands, GasBorder, GasEmitters, Gears, Imprint, Lod, Noise, NoisePattern,
+        Rain, Scales, Sequence, Swing, Track,
     };
     use super::*;
 
     /// A scene with every optional part, so that every range is reached.
     fn full() -> Scene {
         let obstacle = Obstacle { centre: [0.5, 0.5], half_extent_metres: [0.1, 0.1], corner_metres: 0.0, top: 1.0 };
+        let relief = Relief {
+            base: Base::Text(Text::default()),
+            mesh: Some(Mesh { radius_metres: Some(1.0), tiles: [1.0; 2], ..Mesh::default() }),
+            ..Relief::default()
+        };
         Scene {
             wave: Some(Wave {
                 boundary: Boundary::Absorbing,
@@ -366,8 +420,16 @@ mod tests {
             tracks: vec![Track::default()],
             imprints: vec![Imprint { text: Some("R".to_owned()), ..Imprint::default() }],
             healing: Some(Healing::default()),
+            gas: Some(Gas {
+                border_u: GasBorder::Closed,
+                bands: Some(GasBands::default()),
+                emitters: Some(GasEmitters::default()),
+                ..Gas::default()
+            }),
             lod: Lod { threshold: Some(4.0), ..Lod::default() },
             lights: vec![DirectionalLight::default(); LIGHTS_MAX - 1],
+            reliefs: vec![relief],
+            camera: Camera { swing: Some(Swing { degrees: 30.0, period_seconds: 8.0 }), ..Camera::default() },
             ..Scene::default()
         }
     }
@@ -378,6 +440,22 @@ mod tests {
         scene.lights.push(DirectionalLight::default());
         let error = scene.validate().expect_err("five lights").to_string();
         assert!(error.contains("at most 3 beside `[light]`"), "{error}");
+    }
+
+    #[test]
+    fn an_eighth_relief_is_refused_and_another_says_which_it_is() {
+        let mut scene = Scene { reliefs: vec![Relief::default(); RELIEFS_MAX + 1], ..Scene::default() };
+        let error = scene.validate().expect_err("eight").to_string();
+        assert!(error.contains("`reliefs` is a list of 8") && error.contains("at most 7 beside the scene's own"), "{error}");
+        scene.reliefs.pop();
+        assert_eq!(scene.validate(), Ok(()));
+        scene.reliefs[6].field.size = [0, 8];
+        scene.reliefs[6].material.albedo = Albedo::Image;
+        let error = scene.validate().expect_err("no texel").to_string();
+        assert!(error.starts_with("`reliefs[6].field.size` is [0, 8]"), "{error}");
+        scene.reliefs[6].field.size = [8, 8];
+        let error = scene.validate().expect_err("no image").to_string();
+        assert!(error.starts_with("`reliefs[6].material.albedo` is image"), "{error}");
     }
 
     #[test]

@@ -109,6 +109,8 @@ choices! {
         Facade = "facade", "albedo_facade", "Façade";
         /// A leopard's coat, dark toward the roots.
         Fur = "fur", "albedo_fur", "Fur";
+        /// The clouds of a gas planet, by what the gas carries and how it flows.
+        Gas = "gas", "albedo_gas", "Gas";
         /// A lawn with daisies, dark toward the roots.
         Grass = "grass", "albedo_grass", "Grass";
         /// A picture.

@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::{Vec2, Vec3};
 
 use super::raster::{RasterVertex, raster_vertices};
+use super::ray_map::Placement;
 use super::shell;
 use crate::gpu::Gpu;
 use crate::mesh::Vertex;
@@ -61,6 +62,8 @@ pub struct Plan {
     pub triangles: u32,
     /// The plane alone, of this size in metres, and what lies beyond its border; otherwise a mesh.
     pub bare_plane: Option<([f32; 2], Addressing)>,
+    /// Where that plane lies.
+    pub placement: Placement,
 }
 
 /// How far the plane alone goes on beyond its border where the field clamps, tiles: a ray that leaves it by more finds nothing. Where
@@ -173,16 +176,23 @@ pub fn indices(base: u32, pieces: u32) -> Vec<u32> {
 
 /// The plane alone: a grid of `pieces`² quads over its tile, and a frame of long ones beyond its border where the field clamps: the
 /// height does not change there on the way out, so that they are exact.
-pub fn bare_plane(size_metres: [f32; 2], addressing: Addressing, pieces: u32) -> (Vec<MicroVertex>, Vec<u32>) {
+pub fn bare_plane(
+    size_metres: [f32; 2],
+    addressing: Addressing,
+    pieces: u32,
+    placement: &Placement,
+) -> (Vec<MicroVertex>, Vec<u32>) {
     let mut lines: Vec<f32> = (0..=pieces).map(|i| i as f32 / pieces as f32).collect();
     if addressing == Addressing::Clamp {
         lines.insert(0, -BEYOND_TILES);
         lines.push(1.0 + BEYOND_TILES);
     }
     let size = Vec2::from(size_metres);
+    let [up, tangent] = [placement.up, placement.u].map(|axis| axis.as_vec3());
     let vertex = |u: f32, v: f32| {
         let position = Vec3::new((u - 0.5) * size.x, 0.0, (v - 0.5) * size.y);
-        MicroVertex::new(position, Vec2::new(u, v), Vec3::NEG_Y, size, Vec3::Y, Vec3::X, -1.0)
+        let position = placement.world(position.as_dvec3()).as_vec3();
+        MicroVertex::new(position, Vec2::new(u, v), -up, size, up, tangent, -1.0)
     };
     let vertices = lines.iter().flat_map(|&v| lines.iter().map(move |&u| vertex(u, v))).collect();
     let width = lines.len() as u32;
@@ -216,7 +226,7 @@ impl Micropolygons {
             walls_before.push(walls_before.last().map_or(0, |before| before + walls));
         }
         let (mut own_vertices, mut own_indices) = match plan.bare_plane {
-            Some((size, addressing)) => bare_plane(size, addressing, pieces),
+            Some((size, addressing)) => bare_plane(size, addressing, pieces, &plan.placement),
             None => (vertices(mesh.0, mesh.1, pieces), indices(base as u32, pieces)),
         };
         let triangles = (own_indices.len() / 3) as u32;

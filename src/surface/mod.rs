@@ -11,6 +11,7 @@ pub mod micropolygon;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;
+pub mod reliefs;
 pub mod shell;
 pub mod stage;
 #[expect(clippy::module_inception, reason = "the stem rule: this pass's shader is shaders/surface/surface.wgsl")]
@@ -54,6 +55,10 @@ pub struct Choice {
     pub reflects: bool,
     /// Whether stamps may leave gloss and heat.
     pub marks: bool,
+    /// Whether shallow water covers the ground.
+    pub covered: bool,
+    /// Whether other reliefs cast their shadows on it.
+    pub reliefs: bool,
     /// How many lights shine.
     pub lights: u32,
     /// Whether the sky is behind everything, not a studio.
@@ -79,6 +84,8 @@ impl Choice {
             balls: false,
             reflects: false,
             marks: false,
+            covered: false,
+            reliefs: false,
             lights: 1,
             sky_behind: false,
             views: false,
@@ -98,6 +105,8 @@ impl Choice {
             balls,
             reflects,
             marks,
+            covered: scene.shallow_water.is_some(),
+            reliefs: reliefs::are_seen(scene),
             // Validation refuses more lights than there is room for.
             lights: scene.all_lights().len() as u32,
             sky_behind: scene.light.background == Background::Sky,
@@ -107,8 +116,8 @@ impl Choice {
 
     /// For what stands in a scene and is no relief.
     pub fn beside(scene: &Scene) -> Self {
-        let Self { lights, sky_behind, .. } = Self::of(scene);
-        Self { lights, sky_behind, ..Self::PLAIN }
+        let Self { lights, sky_behind, reliefs, .. } = Self::of(scene);
+        Self { lights, sky_behind, reliefs, ..Self::PLAIN }
     }
 
     /// The same for a view of what it traces.
@@ -128,10 +137,12 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         if caps_level { "level_cap" } else { technique.stem() },
         shadow.stem(),
         "sky",
+        "reliefs",
         "balls",
         "matter",
         "transparent",
         albedo.stem(),
+        "shallows",
         shading.stem(),
         "shade",
         if with_truth { "truth_exact" } else { "truth_none" },
@@ -166,8 +177,10 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         ("BALLS", choice.balls),
         ("REFLECTS", choice.reflects),
         ("MARKS", choice.marks),
+        ("RELIEFS", choice.reliefs),
         ("SKY_BEHIND", choice.sky_behind),
         ("VIEWS", choice.views),
+        ("COVERED", choice.covered),
     ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.push(("LIGHTS", f64::from(choice.lights)));
@@ -201,6 +214,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         Albedo::Plain
         | Albedo::Bronze
         | Albedo::Fur
+        | Albedo::Gas
         | Albedo::Glass
         | Albedo::Image
         | Albedo::Planet

@@ -62,9 +62,18 @@ impl Default for Placement {
 
 impl Placement {
     /// A point of the world counted from the middle, along u, out, and along v.
-    fn local(&self, world: DVec3) -> DVec3 {
-        let from_middle = world - self.origin;
-        DVec3::new(from_middle.dot(self.u), from_middle.dot(self.up), from_middle.dot(self.v))
+    pub fn local(&self, world: DVec3) -> DVec3 {
+        self.turned(world - self.origin)
+    }
+
+    /// A direction of the world along u, out, and along v.
+    pub fn turned(&self, world: DVec3) -> DVec3 {
+        DVec3::new(world.dot(self.u), world.dot(self.up), world.dot(self.v))
+    }
+
+    /// The point of the world that is so far from the middle along u, out, and along v.
+    pub fn world(&self, local: DVec3) -> DVec3 {
+        self.origin + local.x * self.u + local.y * self.up + local.z * self.v
     }
 }
 

@@ -1,5 +1,5 @@
-//! Stage: what the camera sees beside and instead of the bare plane: a mesh that carries the relief, flat or as a shell, and balls, with
-//! a depth buffer.
+//! Stage: what the camera sees beside and instead of the bare plane: a mesh that carries the relief, flat or as a shell, further reliefs,
+//! and balls, with a depth buffer.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -7,31 +7,38 @@ use std::ops::Range;
 
 use super::micropolygon::{Micropolygons, Plan};
 use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
-use super::ray_map::Target;
+use super::ray_map::{Placement, Target};
 use super::shell;
 use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
 use crate::camera::Camera;
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Gpu, Readback, Recorder, ShaderError};
 use crate::mesh::Mesh;
-use crate::scene::Scene;
+use crate::scene::{Addressing, Scene};
 
 /// What is drawn, and with what.
 pub struct Stage {
     view_layout: BindingLayout,
-    field_layout: BindingLayout,
     mesh_layout: BindingLayout,
-    field_group: wgpu::BindGroup,
+    field_layout: BindingLayout,
     /// Built when they are first needed.
     pipelines: RefCell<HashMap<(Choice, Geometry, Output), wgpu::RenderPipeline>>,
-    mesh: Option<Body>,
-    micropolygons: Option<Micropolygons>,
+    /// The scene's own relief, and those beside it.
+    carriers: Vec<Carrier>,
     /// The bindings of an empty mesh, for what has none.
     no_mesh: MeshBuffers,
-    /// One for each draw at most, on each side of a divider.
-    views: [Vec<ViewSet>; 2],
+    /// One for each draw at most, on each side of a divider, and what its sampler does beyond the border.
+    views: [Vec<(Addressing, ViewSet)>; 2],
     depth: wgpu::TextureView,
     size: [u32; 2],
+}
+
+/// A field, and what carries it.
+struct Carrier {
+    field_group: wgpu::BindGroup,
+    addressing: Addressing,
+    mesh: Option<Body>,
+    micropolygons: Option<Micropolygons>,
 }
 
 /// A mesh and its buffers.
@@ -40,8 +47,9 @@ struct Body {
     buffers: MeshBuffers,
 }
 
-/// One draw: what, which triangles, seen through which view.
+/// One draw: what, of which relief, which triangles, seen through which view.
 struct Draw {
+    carrier: usize,
     geometry: Geometry,
     choice: Choice,
     triangles: Range<u32>,
@@ -66,42 +74,47 @@ impl Stage {
     pub fn is_needed(scene: &Scene) -> bool {
         let trace = &scene.trace;
         let is_rasterised = trace.shell || trace.displaced_depth || trace.technique == Technique::Mesh;
-        !scene.balls.is_empty() || is_rasterised
+        !scene.balls.is_empty() || !scene.reliefs.is_empty() || is_rasterised
     }
 
-    /// Makes one for pictures of `size` traced pixels; `mesh` is the scene's, or the plane where its shell is drawn.
-    pub fn new(gpu: &Gpu, field: &Field, mesh: Option<Mesh>, size: [u32; 2]) -> Self {
+    /// Makes one for pictures of `size` traced pixels, of these fields: the scene's own, and those of the reliefs beside it. None has a
+    /// mesh yet.
+    pub fn new(gpu: &Gpu, fields: &[&Field], size: [u32; 2]) -> Self {
         let (view_layout, field_layout, mesh_layout) = (view::layout(gpu), field_layout(gpu), raster::mesh_layout(gpu));
-        let field_group = bind_field(gpu, &field_layout, field);
-        let no_mesh = MeshBuffers::new(gpu, &mesh_layout, &[], &[], false);
-        let mut stage = Self {
-            view_layout,
-            field_layout,
-            mesh_layout,
-            field_group,
-            pipelines: RefCell::default(),
+        let carrier = |field: &&Field| Carrier {
+            field_group: bind_field(gpu, &field_layout, field),
+            addressing: field.addressing,
             mesh: None,
             micropolygons: None,
+        };
+        let carriers = fields.iter().map(carrier).collect();
+        let no_mesh = MeshBuffers::new(gpu, &mesh_layout, &[], &[], false);
+        Self {
+            view_layout,
+            mesh_layout,
+            field_layout,
+            pipelines: RefCell::default(),
+            carriers,
             no_mesh,
             views: Default::default(),
             depth: depth_buffer(gpu, size),
             size,
-        };
-        stage.set_mesh(gpu, mesh);
-        stage
+        }
     }
 
-    /// Puts another mesh on it.
-    pub fn set_mesh(&mut self, gpu: &Gpu, mesh: Option<Mesh>) {
-        if self.mesh.as_ref().map(|body| &body.mesh) == mesh.as_ref() {
-            return;
+    /// Puts other meshes on it, one for each field: where they lie in the world. None is the plane, unless its shell is drawn.
+    pub fn set_meshes(&mut self, gpu: &Gpu, meshes: impl IntoIterator<Item = Option<Mesh>>) {
+        for (carrier, mesh) in self.carriers.iter_mut().zip(meshes) {
+            if carrier.mesh.as_ref().map(|body| &body.mesh) == mesh.as_ref() {
+                continue;
+            }
+            carrier.micropolygons = None;
+            carrier.mesh = mesh.map(|mesh| {
+                let can_be_shell = mesh.triangle_count() <= shell::TRIANGLES_MAX;
+                let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, can_be_shell);
+                Body { mesh, buffers }
+            });
         }
-        self.micropolygons = None;
-        self.mesh = mesh.map(|mesh| {
-            let can_be_shell = mesh.triangle_count() <= shell::TRIANGLES_MAX;
-            let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, can_be_shell);
-            Body { mesh, buffers }
-        });
     }
 
     /// Takes another size, of traced pixels.
@@ -111,7 +124,7 @@ impl Stage {
 
     /// Gives back the memory of micropolygons.
     pub fn forget_micropolygons(&mut self) {
-        self.micropolygons = None;
+        self.carriers.iter_mut().for_each(|carrier| carrier.micropolygons = None);
     }
 
     /// Forgets every pipeline: the device's shaders have changed.
@@ -124,28 +137,36 @@ impl Stage {
     /// # Errors
     ///
     /// A shader does not compile.
-    pub fn prepare(&mut self, gpu: &Gpu, field: &Field, scene: &Scene, shows: Shows, side: usize) -> Result<(), ShaderError> {
+    pub fn prepare(&mut self, gpu: &Gpu, scene: &Scene, shows: Shows, side: usize) -> Result<(), ShaderError> {
         self.prepare_micropolygons(gpu, scene);
         // What is drawn does not depend on the camera.
         let camera = &Camera::at(&scene.camera, 0.0);
         let draws = self.draws(&Seen { scene, camera, time_seconds: 0.0, display: shows.into() }, self.size);
-        for draw in &draws {
+        for (index, draw) in draws.iter().enumerate() {
             self.build(gpu, draw.choice, draw.geometry, Output::Radiance)?;
-        }
-        while self.views[side].len() < draws.len() {
-            self.views[side].push(ViewSet::new(gpu, &self.view_layout, field.addressing));
+            let addressing = self.carriers[draw.carrier].addressing;
+            let views = &mut self.views[side];
+            if views.get(index).is_none_or(|(there, _)| *there != addressing) {
+                views.truncate(index);
+                views.push((addressing, ViewSet::new(gpu, &self.view_layout, addressing)));
+            }
         }
         Ok(())
     }
 
     /// Makes the micropolygons that a scene asks for, unless they are there.
     fn prepare_micropolygons(&mut self, gpu: &Gpu, scene: &Scene) {
-        let plane = || (scene.plane_size_metres().map(|metres| metres as f32), scene.field.addressing);
-        let plan = Plan { triangles: scene.trace.mesh_triangles, bare_plane: self.mesh.is_none().then(plane) };
-        let is_asked = scene.trace.technique == Technique::Mesh;
-        if is_asked && self.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
-            let mesh = self.mesh.as_ref().map(|body| (body.mesh.vertices.as_slice(), body.mesh.indices.as_slice()));
-            self.micropolygons = Some(Micropolygons::new(gpu, plan, mesh.unwrap_or_default()));
+        if scene.trace.technique != Technique::Mesh {
+            return;
+        }
+        for (carrier, (alone, placement)) in self.carriers.iter_mut().zip(reliefs_of(scene)) {
+            let plane = || (alone.plane_size_metres().map(|metres| metres as f32), alone.field.addressing);
+            let bare_plane = carrier.mesh.is_none().then(plane);
+            let plan = Plan { triangles: scene.trace.mesh_triangles, bare_plane, placement };
+            if carrier.micropolygons.as_ref().is_none_or(|there| there.plan() != plan) {
+                let mesh = carrier.mesh.as_ref().map(|body| (body.mesh.vertices.as_slice(), body.mesh.indices.as_slice()));
+                carrier.micropolygons = Some(Micropolygons::new(gpu, plan, mesh.unwrap_or_default()));
+            }
         }
     }
 
@@ -162,38 +183,54 @@ impl Stage {
     /// Everything that is drawn, from back to front where that matters.
     fn draws(&self, seen: &Seen<'_>, image_size: [u32; 2]) -> Vec<Draw> {
         let Seen { scene, camera, time_seconds, display } = *seen;
-        let choice = Choice::of(scene).showing(display.shows);
-        let view = View::new(scene, camera, time_seconds, image_size, display);
-        let beside = Choice::beside(scene);
-        let mut draws = vec![Draw { geometry: Geometry::Backdrop, choice: beside, triangles: 0..1, view }];
-        match &self.mesh {
-            None if choice.technique == Technique::Mesh => {
-                draws.push(Draw { geometry: Geometry::Micropolygons, choice, triangles: 0..2, view: View { planar: 2, ..view } });
-            }
-            None => draws.push(Draw { geometry: Geometry::Plane, choice, triangles: 0..1, view }),
-            Some(body) => {
-                let parts = body.mesh.parts.iter();
-                draws.extend(parts.flat_map(|part| {
-                    let settings = scene.mesh.as_ref().and_then(|mesh| mesh.materials.iter().find(|m| m.name == part.material));
-                    let mut view = view;
-                    if let Some(settings) = settings {
-                        view.depth_metres = settings.depth_metres.unwrap_or(view.depth_metres);
-                        if let Some([fewest, most]) = settings.samples {
-                            (view.pom_samples_min, view.pom_samples_max) = (fewest as f32, most as f32);
-                        }
-                    }
-                    let mut draws = mesh_draws(&body.mesh, part.triangles.clone(), view, seen, choice);
-                    if choice.technique == Technique::Mesh {
-                        draws.push(Draw { geometry: Geometry::Walls, choice, triangles: part.triangles.clone(), view });
-                    }
-                    draws
-                }));
-            }
+        let view = View::new(scene, camera, time_seconds, image_size, display).among(scene, None);
+        let plain = |geometry| Draw { carrier: 0, geometry, choice: Choice::beside(scene), triangles: 0..1, view };
+        let mut draws = vec![plain(Geometry::Backdrop)];
+        let reliefs = Choice::of(scene).reliefs;
+        for (index, (alone, placement)) in reliefs_of(scene).into_iter().enumerate().take(self.carriers.len()) {
+            let choice = Choice { reliefs, ..Choice::of(&alone) }.showing(display.shows);
+            let target = target(&alone, placement);
+            let view =
+                View::new(&alone, camera, time_seconds, image_size, display).over(camera, &target).among(scene, Some(index));
+            draws.extend(self.carrier_draws(index, &Seen { scene: &alone, ..*seen }, choice, view));
         }
         if !scene.balls.is_empty() {
-            draws.push(Draw { geometry: Geometry::Balls, choice: beside, triangles: 0..1, view });
+            draws.push(plain(Geometry::Balls));
         }
         draws
+    }
+
+    /// What is drawn of one relief, which `seen` shows by itself.
+    fn carrier_draws(&self, carrier: usize, seen: &Seen<'_>, choice: Choice, view: View) -> Vec<Draw> {
+        let draw = |geometry, triangles, view| Draw { carrier, geometry, choice, triangles, view };
+        let Some(body) = &self.carriers[carrier].mesh else {
+            return vec![match choice.technique {
+                Technique::Mesh => draw(Geometry::Micropolygons, 0..2, View { planar: 2, ..view }),
+                _ => draw(Geometry::Plane, 0..1, view),
+            }];
+        };
+        let settings = seen.scene.mesh.as_ref().map(|mesh| mesh.materials.as_slice()).unwrap_or_default();
+        let parts = body.mesh.parts.iter().flat_map(|part| {
+            let mut view = view;
+            if let Some(settings) = settings.iter().find(|settings| settings.name == part.material) {
+                view.depth_metres = settings.depth_metres.unwrap_or(view.depth_metres);
+                if let Some([fewest, most]) = settings.samples {
+                    (view.pom_samples_min, view.pom_samples_max) = (fewest as f32, most as f32);
+                }
+            }
+            let mut draws = mesh_draws(&body.mesh, part.triangles.clone(), seen, |geometry, triangles, place| match place {
+                Some(target) => {
+                    let target = Target { depth_metres: f64::from(view.depth_metres), ..target };
+                    draw(geometry, triangles, View { planar: 1, ..view.over(seen.camera, &target) })
+                }
+                None => draw(geometry, triangles, view),
+            });
+            if choice.technique == Technique::Mesh {
+                draws.push(draw(Geometry::Walls, part.triangles.clone(), view));
+            }
+            draws
+        });
+        parts.collect()
     }
 
     /// Records one render pass over these columns of `radiance`, under a name of its own; whoever begins at the first begins the
@@ -208,7 +245,7 @@ impl Stage {
         columns: Range<u32>,
     ) {
         let draws = self.draws(seen, self.size);
-        for (draw, set) in draws.iter().zip(&self.views[side]) {
+        for (draw, (_, set)) in draws.iter().zip(&self.views[side]) {
             set.uniform.write(recorder.gpu, &draw.view);
         }
         self.pose(recorder.gpu, seen.time_seconds);
@@ -218,27 +255,27 @@ impl Stage {
         });
     }
 
-    /// Moves an animated mesh to where it is at a time.
+    /// Moves animated meshes to where they are at a time.
     fn pose(&self, gpu: &Gpu, time_seconds: f64) {
-        if let Some(Body { mesh, buffers }) = &self.mesh
-            && mesh.skin.is_some()
-        {
+        for carrier in &self.carriers {
+            let Some(Body { mesh, buffers }) = carrier.mesh.as_ref().filter(|body| body.mesh.skin.is_some()) else { continue };
             let vertices = mesh.posed(time_seconds);
             buffers.pose(gpu, &vertices, &mesh.indices);
-            if let Some(micropolygons) = &self.micropolygons {
+            if let Some(micropolygons) = &carrier.micropolygons {
                 micropolygons.pose(gpu, (&vertices, &mesh.indices));
             }
         }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draws: &[Draw], views: &[ViewSet], output: Output) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, draws: &[Draw], views: &[(Addressing, ViewSet)], output: Output) {
         let pipelines = self.pipelines.borrow();
-        for (draw, view) in draws.iter().zip(views) {
+        for (draw, (_, view)) in draws.iter().zip(views) {
             let Some(pipeline) = pipelines.get(&(draw.choice, draw.geometry, output)) else { continue };
-            let buffers = self.mesh.as_ref().map_or(&self.no_mesh, |body| &body.buffers);
+            let Carrier { field_group, mesh, micropolygons, .. } = &self.carriers[draw.carrier];
+            let buffers = mesh.as_ref().map_or(&self.no_mesh, |body| &body.buffers);
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &view.group, &[]);
-            pass.set_bind_group(1, &self.field_group, &[]);
+            pass.set_bind_group(1, field_group, &[]);
             pass.set_bind_group(2, &buffers.group, &[]);
             let Range { start, end } = draw.triangles;
             match draw.geometry {
@@ -250,12 +287,12 @@ impl Stage {
                 Geometry::Micropolygons => {
                     // The plane alone goes on beyond its border: over the tiles around it, where the field wraps.
                     let instances = if draw.view.planar == 2 && draw.view.wrap == 1 { 9 } else { 1 };
-                    if let Some(micropolygons) = &self.micropolygons {
+                    if let Some(micropolygons) = micropolygons {
                         micropolygons.draw(pass, &micropolygons.of(&draw.triangles), instances);
                     }
                 }
                 Geometry::Walls => {
-                    if let Some(micropolygons) = &self.micropolygons {
+                    if let Some(micropolygons) = micropolygons {
                         micropolygons.draw(pass, &micropolygons.walls_of(&draw.triangles), 1);
                     }
                 }
@@ -270,16 +307,15 @@ impl Stage {
     /// # Errors
     ///
     /// A shader does not compile.
-    pub fn request_channels(
-        &self,
-        gpu: &Gpu,
-        field: &Field,
-        seen: &Seen<'_>,
-        size: [u32; 2],
-    ) -> Result<Vec<Readback>, ShaderError> {
+    pub fn request_channels(&self, gpu: &Gpu, seen: &Seen<'_>, size: [u32; 2]) -> Result<Vec<Readback>, ShaderError> {
         let draws: Vec<_> = self.draws(seen, size).into_iter().filter(|draw| draw.geometry != Geometry::Backdrop).collect();
-        let views: Vec<_> = draws.iter().map(|_| ViewSet::new(gpu, &self.view_layout, field.addressing)).collect();
-        for (draw, set) in draws.iter().zip(&views) {
+        let addressing = |draw: &Draw| self.carriers[draw.carrier].addressing;
+        let views: Vec<_> = draws
+            .iter()
+            .map(addressing)
+            .map(|addressing| (addressing, ViewSet::new(gpu, &self.view_layout, addressing)))
+            .collect();
+        for (draw, (_, set)) in draws.iter().zip(&views) {
             set.uniform.write(gpu, &draw.view);
         }
         self.pose(gpu, seen.time_seconds);
@@ -320,32 +356,51 @@ impl Stage {
     /// Bytes of GPU memory that its buffers take.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
-        let micropolygons = self.micropolygons.as_ref().map_or(0, Micropolygons::memory_bytes);
-        self.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes()) + micropolygons + 4 * width * height
+        let carried = self.carriers.iter().map(|carrier| {
+            let mesh = carrier.mesh.as_ref().map_or(0, |body| body.buffers.memory_bytes());
+            mesh + carrier.micropolygons.as_ref().map_or(0, Micropolygons::memory_bytes)
+        });
+        carried.sum::<u64>() + 4 * width * height
     }
 }
 
-/// The draws of one material of a mesh.
-fn mesh_draws(mesh: &Mesh, triangles: Range<u32>, view: View, seen: &Seen<'_>, choice: Choice) -> Vec<Draw> {
+/// The reliefs of a scene, its own first: each as a scene by itself, and where its plane lies.
+fn reliefs_of(scene: &Scene) -> Vec<(Scene, Placement)> {
+    let own = std::iter::once((scene.clone(), Placement::default()));
+    own.chain(scene.reliefs.iter().map(|relief| (relief.alone(scene), relief.placement()))).collect()
+}
+
+/// The plane of a scene, where it lies.
+fn target(scene: &Scene, placement: Placement) -> Target {
+    Target {
+        placement,
+        field_size: scene.field.size,
+        plane_size_metres: scene.plane_size_metres(),
+        depth_metres: f64::from(scene.plane.depth_metres),
+    }
+}
+
+/// The draws of one material of a mesh; where all rays to some triangles come from one flat target, `draw` is told.
+fn mesh_draws(
+    mesh: &Mesh,
+    triangles: Range<u32>,
+    seen: &Seen<'_>,
+    draw: impl Fn(Geometry, Range<u32>, Option<Target>) -> Draw,
+) -> Vec<Draw> {
     let scene = seen.scene;
-    let is_micro = choice.technique == Technique::Mesh;
+    let is_micro = scene.trace.technique == Technique::Mesh;
     if scene.trace.shell && !is_micro {
-        return vec![Draw { geometry: Geometry::Shell, choice, triangles, view }];
+        return vec![draw(Geometry::Shell, triangles, None)];
     }
     let geometry = if is_micro { Geometry::Micropolygons } else { Geometry::Facets(scene.trace.displaced_depth) };
     if !mesh.is_planar {
-        return vec![Draw { geometry, choice, triangles, view }];
+        return vec![draw(geometry, triangles, None)];
     }
-    let draw = |chart: facet::Chart| {
-        let target = Target {
-            placement: chart.placement,
-            field_size: scene.field.size,
-            plane_size_metres: chart.tile_metres,
-            depth_metres: f64::from(view.depth_metres),
-        };
-        Draw { geometry, choice, triangles: chart.triangles, view: View { planar: 1, ..view.over(seen.camera, &target) } }
+    let chart = |chart: facet::Chart| {
+        let tile = Target { plane_size_metres: chart.tile_metres, ..target(scene, chart.placement) };
+        draw(geometry, chart.triangles, Some(tile))
     };
-    facet::charts(mesh, triangles).into_iter().map(draw).collect()
+    facet::charts(mesh, triangles).into_iter().map(chart).collect()
 }
 
 fn depth_buffer(gpu: &Gpu, size: [u32; 2]) -> wgpu::TextureView {

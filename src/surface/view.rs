@@ -9,6 +9,7 @@ use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
 use super::level_of_detail::ViewDetail;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
+use super::reliefs::{self, SLABS_MAX, Slab};
 use super::{Display, micropolygon};
 
 /// A ball beside the relief. Twin of the WGSL struct in `shaders/common/view.wgsl`.
@@ -108,7 +109,12 @@ pub struct View {
     pub repeat: [f32; 2],
     pub moment: f32,
     pub glow: f32,
+    pub slab_count: u32,
+    pub own_slab: u32,
     pub detail: ViewDetail,
+    pub slabs: [Slab; SLABS_MAX],
+    pub slab_penumbra: f32,
+    pub pad_slabs: [u32; 3],
 }
 
 impl View {
@@ -192,6 +198,19 @@ impl View {
             ..Self::default()
         };
         view.over(camera, &target)
+    }
+
+    /// The same view of what stands among the reliefs of a scene, and is one of them or none: the others cast their shadows on it.
+    #[must_use]
+    pub fn among(self, scene: &Scene, own: Option<usize>) -> Self {
+        let all = reliefs::slabs(scene);
+        let mut slabs = [Slab::default(); SLABS_MAX];
+        // Validation refuses more reliefs than there is room for.
+        for (slot, slab) in slabs.iter_mut().zip(&all) {
+            *slot = *slab;
+        }
+        let own_slab = own.map_or(u32::MAX, |index| index as u32);
+        Self { slabs, slab_count: all.len() as u32, own_slab, slab_penumbra: reliefs::penumbra(scene), ..self }
     }
 
     /// The same view of another flat relief.

@@ -2,10 +2,10 @@
 
 use rilievo::camera::Camera;
 use rilievo::clock::Tick;
-use rilievo::field::base;
 use rilievo::frame::{Frame, FrameInput, Start};
 use rilievo::gpu::Gpu;
-use rilievo::io::scene_file::embedded;
+use rilievo::io::scene_file::{SceneOverrides, load};
+use rilievo::modes;
 use rilievo::modes::capture::{PICTURE_FORMAT, Picture, read_channels};
 use rilievo::scene::{Lod, Scene};
 use rilievo::stroke::Strokes;
@@ -21,8 +21,8 @@ struct Flight {
 }
 
 impl Flight {
-    fn new(gpu: &Gpu, scene: &Scene, heights: &[f32], image_size: [u32; 2], frames: u32) -> Self {
-        let start = Start::new(scene, heights.to_vec(), None);
+    fn new(gpu: &Gpu, scene: &Scene, start: &Start, image_size: [u32; 2], frames: u32) -> Self {
+        let start = Start { scene: scene.clone(), ..start.clone() };
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT).expect("its shaders compile");
         let picture = Picture::new(gpu, image_size);
         let pass = Channels::new(gpu, Choice::of(scene)).expect("its shaders compile");
@@ -52,13 +52,15 @@ fn differences(a: &[Vec<u8>], b: &[Vec<u8>]) -> (f64, u8) {
 
 /// Flies both ways with a technique, prints the figures and holds them to the bars.
 fn compare(gpu: &Gpu, technique: Technique, shadow: Shadow, image_size: [u32; 2], frames: u32) {
-    let mut on = embedded("sidewalk").expect("it is listed");
+    let start = modes::start(&load("sidewalk", &SceneOverrides::default(), image_size).expect("it is listed"))
+        .expect("it plays nothing")
+        .0;
+    let mut on = start.scene.clone();
     on.trace.technique = technique;
     on.trace.shadow = shadow;
     on.lod.keep_exact = false;
     let off = Scene { lod: Lod { threshold: None, ..on.lod.clone() }, ..on.clone() };
-    let heights = base::heights(&on).expect("cobbles are procedural");
-    let [with, without] = [&on, &off].map(|scene| Flight::new(gpu, scene, &heights, image_size, frames));
+    let [with, without] = [&on, &off].map(|scene| Flight::new(gpu, scene, &start, image_size, frames));
     let (mean, p99) = differences(&with.pictures, &without.pictures);
     let saved = 1.0 - with.steps / without.steps;
     let flicker = |flight: &Flight| differences(&flight.pictures[1..], &flight.pictures[..frames as usize - 1]).1;

@@ -7,12 +7,13 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 19] = [
+const GOLDENS: [(&str, &[&str]); 21] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("explosions", &["--scene", "explosions", "--warmup", "60"]),
     ("snow", &["--scene", "snow", "--warmup", "90"]),
     ("relief", &["--scene", "relief"]),
+    ("sidewalk", &["--scene", "sidewalk"]),
     ("fur", &["--scene", "fur"]),
     ("grass", &["--scene", "grass", "--technique", "steep"]),
     ("text", &["--scene", "text", "--field", "320x200"]),
@@ -20,6 +21,7 @@ const GOLDENS: [(&str, &[&str]); 19] = [
     ("terrain", &["--scene", "terrain"]),
     ("depth-image", &["--scene", "depth-image", "--warmup", "40", "--field", "320x256"]),
     ("cube", &["--scene", "cube"]),
+    ("gas-planet", &["--scene", "gas-planet", "--field", "256x128", "--warmup", "12"]),
     ("planet", &["--scene", "planet", "--field", "256x128"]),
     ("columns", &["--scene", "columns", "--warmup", "60"]),
     ("dunes", &["--scene", "dunes", "--warmup", "60", "--field", "384x384"]),

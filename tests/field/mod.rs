@@ -2,6 +2,13 @@
 
 mod compose;
 mod cool;
+mod gas;
+mod gas_activity;
+mod gas_advect;
+mod gas_emit;
+mod gas_force;
+mod gas_project;
+mod gas_show;
 mod heal;
 mod noise;
 mod noise_columns;
@@ -12,5 +19,6 @@ mod noise_scales;
 mod normal_mips;
 mod normals;
 mod pyramid;
+mod shallow_water;
 mod stamp;
 mod wave;

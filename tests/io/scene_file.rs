@@ -180,6 +180,29 @@ fn an_image_sets_the_size_unless_the_file_does() {
 }
 
 #[test]
+fn reliefs_beside_the_scenes_own_have_files_and_sizes_of_their_own() {
+    let directory = temporary();
+    image::GrayImage::from_fn(6, 4, |x, _| image::Luma([x as u8 * 50]))
+        .save(directory.path().join("h.png"))
+        .expect("the directory can be written");
+    let image = "[[reliefs]]\nyaw_degrees = 90.0\n[reliefs.base]\nkind = \"image\"\npath = \"h.png\"\n";
+    let sized = format!("{image}[reliefs.field]\nsize = [3, 8]\n");
+    let meshed = "[[reliefs]]\n[reliefs.mesh]\nsource = \"torus\"\n[reliefs.base]\nkind = \"text\"\n";
+    let path = write(directory.path(), "own.toml", &format!("version = 1\n{image}{sized}{meshed}"));
+    // The command line speaks of the scene's own.
+    let overrides = SceneOverrides { field: Some(FieldSize::Width(20)), depth_metres: Some(0.3), ..SceneOverrides::default() };
+    let loaded = load(&path, &overrides, PICTURE).expect("it is sound");
+    let sizes: Vec<_> = loaded.reliefs.iter().map(|relief| relief.scene.field.size).collect();
+    assert_eq!(sizes, [[6, 4], [3, 8], [512, 512]]);
+    assert_eq!(loaded.scene.reliefs.iter().map(|relief| relief.field.size).collect::<Vec<_>>(), sizes);
+    assert_eq!((loaded.scene.field.size, loaded.scene.reliefs[0].plane.depth_metres), ([20, 20], 0.1));
+    for (relief, size) in loaded.reliefs.iter().zip(sizes) {
+        assert_eq!(relief.layers().0.len(), (size[0] * size[1]) as usize);
+    }
+    assert!(loaded.reliefs[2].mesh.is_some() && loaded.reliefs[0].mesh.is_none());
+}
+
+#[test]
 fn a_tall_plane_is_shown_whole_unless_a_camera_was_chosen() {
     let overrides = SceneOverrides { field: Some(FieldSize::Exactly([64, 512])), ..SceneOverrides::default() };
     let own = embedded("relief").expect("it is listed").camera;
@@ -220,6 +243,16 @@ fn unfit_files_are_refused_with_their_line() {
         ("version = 1\n[material]\nalbedo = \"image\"\n", "--albedo"),
         ("version = 1\n[material]\nimage = \"\"\n", "`material.image` is empty"),
         ("version = 1\n[material]\nimage = \"nowhere.png\"\n", "nowhere.png: there is no such file"),
+        ("version = 1\n[[reliefs]]\nposition_metres = [0.0, 1.0]\n", "2 values where there must be 3"),
+        ("version = 1\n[[reliefs]]\nyaw = 1.0\n", "did you mean `yaw_degrees`?"),
+        ("version = 1\n[[reliefs]]\npitch_degrees = inf\n", "`reliefs[0].pitch_degrees` is inf"),
+        ("version = 1\n[[reliefs]]\n[[reliefs]]\n[reliefs.field]\nsize = [0, 4]\n", "`reliefs[1].field.size` is [0, 4]"),
+        ("version = 1\n[[reliefs]]\n[reliefs.wave]\n", "unknown field `wave`"),
+        (
+            "version = 1\n[[reliefs]]\n[reliefs.base]\nkind = \"image\"\npath = \"nowhere.png\"\n",
+            "nowhere.png: there is no such file",
+        ),
+        ("version = 1\n[[reliefs]]\n[reliefs.mesh]\nsource = \"cubes\"\n", "unknown mesh"),
     ] {
         let path = write(directory.path(), "scene.toml", text);
         let sentence = refusal(&path);

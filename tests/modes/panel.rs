@@ -10,7 +10,7 @@ use rilievo::modes::live::input::Action;
 use rilievo::modes::live::panel::{Panel, set_style};
 use rilievo::modes::live::readings::Readings;
 use rilievo::scene::DirectionalLight;
-use rilievo::scene::{Boundary, Rain, Scene, Shots, Wave};
+use rilievo::scene::{Boundary, Rain, Relief, Scene, Shots, Wave};
 use rilievo::surface::{Albedo, Display, Shading, Shadow, Shows, Split, Technique};
 
 struct State {
@@ -25,7 +25,7 @@ fn harness(scene: Scene) -> Panels {
     let scenes = ["ripples", "bullet-wall", "relief"].map(|name| (name.to_owned(), format!("What {name} shows.")));
     let state = State { panel: Panel::new(scene, scenes.to_vec()), actions: Vec::new(), readings: Readings::default() };
     // High enough to show all without scrolling: what is out of sight cannot be clicked.
-    let mut harness = Harness::builder().with_size([900.0, 2400.0]).build_ui_state(
+    let mut harness = Harness::builder().with_size([900.0, 2700.0]).build_ui_state(
         |ui, state: &mut State| {
             let actions = state.panel.show(ui, &state.readings);
             state.actions.extend(actions);
@@ -34,9 +34,11 @@ fn harness(scene: Scene) -> Panels {
     );
     set_style(&harness.ctx);
     harness.run();
-    for name in ["Material", "Camera"] {
-        harness.get_by_label(name).click();
-        harness.run();
+    for name in ["Material", "Camera", "Reliefs beside it"] {
+        if let Some(heading) = harness.query_by_label(name) {
+            heading.click();
+            harness.run();
+        }
     }
     harness
 }
@@ -47,6 +49,7 @@ fn everything() -> Scene {
         name: "ripples".to_owned(),
         wave: Some(Wave { boundary: Boundary::Absorbing, rain: Some(Rain::default()), ..Wave::default() }),
         shots: Some(Shots::default()),
+        reliefs: vec![Relief { name: "wall".to_owned(), ..Relief::default() }; 2],
         ..Scene::default()
     };
     scene.trace.technique = Technique::Pom;
@@ -111,6 +114,8 @@ fn numbers_carry_their_units() {
     let harness = harness(everything());
     let units = [
         ("Depth", "mm"),
+        ("Relief depth", "mm"),
+        ("Pitch", "°"),
         ("Azimuth", "°"),
         ("Elevation", "°"),
         ("Turn", "°/s"),

@@ -3,6 +3,7 @@
 #[cfg(target_os = "linux")]
 pub mod desktop;
 pub mod fields;
+pub mod gas;
 pub mod gpu;
 pub mod lights;
 pub mod lit;
@@ -10,3 +11,4 @@ pub mod rays;
 pub mod seen;
 pub mod techniques;
 pub mod tolerances;
+pub mod water;

@@ -21,8 +21,13 @@ pub fn seen(
     camera: &Camera,
     size: [u32; 2],
 ) -> (Vec<Channel>, Vec<u8>) {
-    let start = Start::new(scene, heights.heights.clone(), mesh);
-    let mut frame = Frame::new(gpu, &start, size, PICTURE_FORMAT).expect("it is small, and its shaders compile");
+    seen_from_start(gpu, &Start::new(scene, heights.heights.clone(), mesh), camera, size)
+}
+
+/// The same of whatever a frame starts from.
+pub fn seen_from_start(gpu: &Gpu, start: &Start, camera: &Camera, size: [u32; 2]) -> (Vec<Channel>, Vec<u8>) {
+    let scene = &start.scene;
+    let mut frame = Frame::new(gpu, start, size, PICTURE_FORMAT).expect("it is small, and its shaders compile");
     let picture = Picture::new(gpu, size);
     let pass = Channels::new(gpu, Choice::of(scene)).expect("its shaders compile");
     let (tick, strokes) = (Tick::default(), Strokes::default());

@@ -31,6 +31,37 @@ pub const SPONGE_ENERGY: f64 = 0.01;
 /// Net of an impulse over its free texels, in units of its strength and for each texel: the rounding of one f32 sum.
 pub const IMPULSE_NET: f64 = 1e-7;
 
+/// One kernel of the gas against its f64 reference, of values about 1: positions within a cell carry a few roundings of numbers below
+/// 8 (5e-7 each), which count by the slope of what is sampled, at most 2 a cell; three times that.
+pub const GAS_KERNEL: f64 = 1e-5;
+
+/// Five whole steps of it: each step's rounding goes on in the next, and limiters may decide otherwise where two values are as good as
+/// equal.
+pub const GAS_STEPS: f64 = 1e-4;
+
+/// Divergence that three V-cycles leave, of what there was, root of the mean square: the project's bar.
+pub const GAS_DIVERGENCE: f64 = 1e-3;
+
+/// Values beyond the bounds of what is carried, of 1: the limiter's extrema are values that exist, so none at all.
+pub const GAS_BOUNDS: f64 = 0.0;
+
+/// What puffs add to the sum of all cells, relative: the project's bar.
+pub const GAS_EMITTED: f64 = 1e-3;
+
+/// Kinetic energy of the Taylor–Green vortex at 128² after a second, relative to e^(−4νt): the project's bar.
+pub const GAS_DECAY: f64 = 0.03;
+
+/// Relative rise of its energy from step to step: the rounding of the sum of squares, half an ulp of f32 of each velocity. The decay
+/// is a thousand times faster.
+pub const GAS_ENERGY_RISE: f64 = 1e-7;
+
+/// How far a flow whose still tiles are skipped may be from one that skips none, m/s where the fastest has 1 and stillness is 1e-4:
+/// what a tile loses that is put to rest, and what its pressure would have done to it.
+pub const GAS_SKIPPING: f64 = 2e-3;
+
+/// What is shown of the gas in a half: 11 bits, of numbers up to 4.
+pub const GAS_COVER: f64 = 4.0 / 2048.0;
+
 /// A stamp against its f64 reference, in units of the largest height in play: some ten operations at 2⁻²⁴, and one division that
 /// WGSL allows 2.5 ulp. "A few ulp."
 pub const STAMP_HEIGHT: f64 = 8.0 * ULP;
@@ -265,6 +296,32 @@ pub const MESH_PIXEL_CELLS: f64 = 0.05;
 /// Share of pixels that may be off by more: where a silhouette passes within that of the pixel's centre.
 pub const MESH_PIXEL_SHARE: f64 = 2e-3;
 
+/// Depths of shallow water, of bores and fans, against the closed form, relative sums: the project's bar. Second order measures 0.0006
+/// to 0.0035 there.
+pub const WATER_DAM: f64 = 0.01;
+
+/// The dam's middle state and shock, against the six figures that they were given to.
+pub const WATER_STOKER: f64 = 1e-5;
+
+/// Thacker's paraboloid after one period, relative sum: the project's bar.
+pub const WATER_THACKER: f64 = 0.02;
+
+/// The period of a seiche: the project's bar.
+pub const WATER_SEICHE: f64 = 0.01;
+
+/// A lake at rest after 1,000 steps, in depths: the project's bar. The surface is stored as a depth, whose rounding is a thousandth of
+/// that.
+pub const WATER_REST: f64 = 1e-5;
+
+/// Drift of the mass between walls over 2,000 steps: the project's bar.
+pub const WATER_MASS: f64 = 1e-5;
+
+/// Net of a dent and its ring, in volumes of the dent: sums of some thousand f32 numbers.
+pub const WATER_NET: f64 = 1e-5;
+
+/// Water against its f64 reference after a few steps, in depths: a thin film's velocity is a quotient of small numbers, and limiters
+/// have corners, where rounding decides between two slopes.
+pub const WATER_STEPS: f64 = 2e-5;
 /// Procedural heights against their f64 reference: a place on a lattice of some 30 cells is rounded to 2⁻²⁴ of that, an octave rises
 /// by up to 3 a cell, an edge a hundredth of the field wide by 1.5 in that. Twice what was measured of any pattern.
 pub const NOISE_HEIGHT: f64 = 5e-5;
@@ -278,3 +335,20 @@ pub const GEAR_TURNS: f64 = 1e-5;
 
 /// Modules by which straight-sided teeth may cut into each other where involutes would roll: 0.095 was measured.
 pub const GEAR_INTERFERENCE: f64 = 0.1;
+
+/// Distances from the eye of two reliefs in one pixel, relative, within which either may be seen: the depth buffer's f32, and the
+/// precision of a place on a ray, a ten-thousandth of a cell, where it grazes.
+pub const RELIEF_TIE: f64 = 1e-5;
+
+/// Share of pixels whose ray only just touches a relief, where rounding decides whether it goes on: as for the positions of captures.
+pub const TANGENT_SHARE_SEEN: f64 = 1e-3;
+
+/// Share of pixels in which a relief that is turned and moved together with camera and light may differ: where a ray or a shadow ray
+/// grazes, other roundings decide.
+pub const SAME_RELIEF_OFF_SHARE: f64 = 5e-3;
+
+/// Visibility behind the soft border of a rectangle against 2,000 directions of the light's disc: half as much again as was measured.
+pub const RELIEF_PENUMBRA: f64 = 0.02;
+
+/// The same at its corners, where the shares behind two borders are multiplied: twice what was measured.
+pub const RELIEF_CORNER: f64 = 0.045;

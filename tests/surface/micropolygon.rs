@@ -29,7 +29,7 @@ fn there_are_as_many_as_were_asked_for() {
     let (own, all) = (vertices(&mesh.vertices, &mesh.indices, 5), indices(mesh.triangle_count() as u32, 5));
     assert_eq!((own.len(), all.len()), (21 * mesh.triangle_count(), 3 * 25 * mesh.triangle_count()));
     assert!(all.iter().all(|&index| (index as usize) < own.len()));
-    let (own, all) = bare_plane([1.0, 1.0], Addressing::Wrap, 256);
+    let (own, all) = bare_plane([1.0, 1.0], Addressing::Wrap, 256, &Placement::default());
     assert_eq!((own.len(), all.len()), (257 * 257, 3 * 131_072));
     // 56 bytes a vertex and 12 a triangle.
     assert_eq!(size_of_val(own.as_slice()) + size_of_val(all.as_slice()), 56 * 257 * 257 + 12 * 131_072);

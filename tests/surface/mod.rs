@@ -10,6 +10,7 @@ mod light_phong;
 mod march;
 mod micropolygon;
 mod ray_map;
+mod reliefs;
 mod shadow_area;
 mod shadow_cone;
 mod shadow_hard;

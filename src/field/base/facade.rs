@@ -42,7 +42,7 @@ pub fn struck(metres: [f64; 2]) -> Struck {
 
 /// Depth below the reference surface, metres.
 pub(super) fn depth_metres(x: f64, y: f64) -> f64 {
-    let brick = PLASTER_METRES - 0.002 + bricks_depth_metres(x, y);
+    let brick = PLASTER_METRES - 0.002 + bricks_depth_metres(x, y, None);
     let [x, y] = home([x, y]);
     let plaster =
         FACE_METRES + 0.0012 * fractal_noise(x * 14.0, y * 14.0, 81, 5) + 0.0005 * fractal_noise(x * 160.0, y * 160.0, 82, 3);

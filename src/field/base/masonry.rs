@@ -12,12 +12,17 @@ pub const BRICK_JOINT_METRES: f32 = 0.010;
 /// Mean distance from cobble to cobble, metres.
 pub const COBBLE_METRES: f32 = 0.1;
 
-/// Depth below the face of the wall, metres: rounded arrises, rough faces, recessed joints.
-pub(super) fn bricks_depth_metres(x: f64, y: f64) -> f64 {
+/// Depth below the face of the wall, metres: rounded arrises, rough faces, recessed joints. Where a field of this extent is a `tile`
+/// that repeats and a whole number of bricks fits it, one across its border is the same brick on both sides.
+pub(super) fn bricks_depth_metres(x: f64, y: f64, tile: Option<[f64; 2]>) -> f64 {
     let [length, height] = BRICK_METRES.map(f64::from);
     let course = (y / height).floor();
     let along = x / length + 0.5 * course.rem_euclid(2.0);
-    let brick = [along.floor() as i32, course as i32];
+    let mut brick = [along.floor() as i32, course as i32];
+    if let Some([wide, high]) = tile {
+        let count = |extent: f64, size: f64| ((extent / size).round() as i32).max(1);
+        brick = [brick[0].rem_euclid(count(wide, length)), brick[1].rem_euclid(count(high, height))];
+    }
     let inside = [along - along.floor(), y / height - course];
     let border = |inside: f64, size: f64| (0.5 - (inside - 0.5).abs()) * size - 0.5 * f64::from(BRICK_JOINT_METRES);
     let from_edge = border(inside[0], length).min(border(inside[1], height));

@@ -4,6 +4,7 @@
 //! same relief. Their layouts are shared with the albedos that colour them (`shaders/surface/albedo_brick.wgsl`, `…_cobble.wgsl` and
 //! `…_grass.wgsl`).
 
+mod beach;
 pub mod facade;
 mod landscape;
 pub mod lettering;
@@ -20,7 +21,7 @@ pub mod text;
 
 pub use lettering::{Lettering, LetteringError};
 pub use masonry::{BRICK_JOINT_METRES, BRICK_METRES, COBBLE_METRES};
-pub(crate) use noise::hash_cell;
+pub(crate) use noise::{gradient_octaves_3, hash_cell};
 pub use strands::DAISY_METRES;
 
 use super::wave;
@@ -48,7 +49,10 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
     };
     match &scene.base {
         Base::Flat { height: level } => Some(vec![*level; width as usize * height as usize]),
-        Base::Bricks {} => Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y) / depth_metres)),
+        Base::Bricks {} => {
+            let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());
+            Some(fill(&|x, y| 1.0 - bricks_depth_metres(x, y, tile) / depth_metres))
+        }
         Base::Cobbles {} => {
             // Where the field wraps, so do the stones.
             let tile = (scene.field.addressing == Addressing::Wrap).then(|| scene.plane_size_metres());
@@ -62,6 +66,10 @@ pub fn heights(scene: &Scene) -> Option<Vec<f32>> {
         Base::Terrain {} => {
             let terrain = Terrain::new(scene.seed);
             Some(fill(&|x, y| terrain.height(x / plane_metres, y / plane_metres)))
+        }
+        Base::Beach {} => {
+            let down_metres = scene.plane_size_metres()[1];
+            Some(fill(&|x, y| beach::height(x / plane_metres, y / down_metres, scene.seed)))
         }
         Base::Fur {} => Some(strands::fur(scene.field.size, texel_metres, scene.seed)),
         Base::Grass {} => Some(strands::grass(scene.field.size, texel_metres, scene.seed)),
@@ -90,12 +98,13 @@ pub fn rest_height(base: &Base) -> f32 {
 
 /// The texels on which the posts of a scene stand, with the height of their tops.
 pub fn posts(scene: &Scene) -> Vec<(usize, f32)> {
-    let Some(wave) = &scene.wave else { return Vec::new() };
     let [width, height] = scene.field.size;
     let plane_metres = scene.plane_size_metres();
-    let periodic = wave.boundary == Boundary::Periodic;
+    let of_wave = scene.wave.iter().flat_map(|wave| &wave.obstacles);
+    let of_water = scene.shallow_water.iter().flat_map(|water| &water.obstacles);
+    let periodic = scene.wave.as_ref().is_some_and(|wave| wave.boundary == Boundary::Periodic);
     let mut posts = Vec::new();
-    for obstacle in &wave.obstacles {
+    for obstacle in of_wave.chain(of_water) {
         for y in 0..height {
             for x in 0..width {
                 let uv = [(f64::from(x) + 0.5) / f64::from(width), (f64::from(y) + 0.5) / f64::from(height)];

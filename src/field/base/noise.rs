@@ -121,7 +121,7 @@ fn gradient_noise_3(position: DVec3, salt: u32) -> f64 {
 }
 
 /// Octaves of it, in about [−1, 1].
-pub(super) fn gradient_octaves_3(position: DVec3, salt: u32, octaves: u32) -> f64 {
+pub(crate) fn gradient_octaves_3(position: DVec3, salt: u32, octaves: u32) -> f64 {
     let (mut sum, mut weight, mut at) = (0.0, 0.5, position);
     for octave in 0..octaves {
         sum += weight * gradient_noise_3(at, salt.wrapping_add(octave));

@@ -34,6 +34,8 @@ pub struct Bench {
     mesh: Option<Mesh>,
     /// The colours of albedo `image`.
     colours: Option<ColourImage>,
+    /// What the reliefs beside it start from.
+    reliefs: Vec<Start>,
     picture: Picture,
     tick: Tick,
     /// One for each choice that was shown: a shader takes a while to build.
@@ -91,7 +93,8 @@ impl Bench {
         // What was owed is done: from here on time stands.
         tick = Tick { previous_seconds: tick.time_seconds, owed: Default::default(), ..tick };
         frame.timer = trusted_timer(gpu);
-        Ok(Self { frame, scene: scene.clone(), mesh: start.mesh.clone(), colours, picture, tick, passes: HashMap::new() })
+        let (mesh, reliefs) = (start.mesh.clone(), start.reliefs.clone());
+        Ok(Self { frame, scene: scene.clone(), mesh, colours, reliefs, picture, tick, passes: HashMap::new() })
     }
 
     /// The same content over a field of another size, which does not move.
@@ -110,8 +113,8 @@ impl Bench {
         let row = |y: u32| nearest(y, 1) * from[0] as usize;
         let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let material = texels.map(|(x, y)| material[row(y) + nearest(x, 0)]).collect();
-        let start =
-            Start { scene, heights, material, mesh: self.mesh.clone(), colours: self.colours.clone(), images: Vec::new() };
+        let (mesh, colours, reliefs) = (self.mesh.clone(), self.colours.clone(), self.reliefs.clone());
+        let start = Start { scene, heights, material, mesh, colours, images: Vec::new(), reliefs };
         let image_size = self.frame.image_size();
         let mut frame = Frame::new(gpu, &start, image_size, PICTURE_FORMAT)?;
         frame.timer = trusted_timer(gpu);
@@ -121,6 +124,7 @@ impl Bench {
             scene: start.scene,
             mesh: start.mesh,
             colours: start.colours,
+            reliefs: start.reliefs,
             picture,
             tick: self.tick,
             passes: HashMap::new(),

@@ -144,6 +144,8 @@ impl Plan {
             eye: place.eye,
             target: place.target,
             orbit_degrees_per_second: 0.0,
+            swing: None,
+            fly_metres_per_second: [0.0; 3],
             ..scene.camera.clone()
         };
         let cameras = match &options.view_from[..] {

@@ -1,8 +1,10 @@
 //! The hand: what the brush does where it meets the surface.
 
+use crate::field::gas_emit::Puff;
+use crate::field::shallow_water::Event;
 use crate::field::stamp::{Blend, Profile, Stamp};
 use crate::field::wave::Impulse;
-use crate::scene::{Addressing, Scene, Shots, Struck};
+use crate::scene::{Addressing, Gas, Scene, Shots, Struck};
 use crate::stroke::{Lattice, Random, Stream, Stroke, explosions, imprints, shots};
 
 /// What the left mouse button does to the surface.
@@ -18,17 +20,26 @@ pub enum BrushKind {
     Groove,
     /// The scene's first imprint.
     Imprint,
+    /// A whirling puff into the gas.
+    Puff,
+    /// Water, poured out.
+    Pour,
+    /// Water, taken away.
+    Drain,
 }
 
 impl BrushKind {
     /// Those that a scene has a use for.
     pub fn of(scene: &Scene) -> Vec<Self> {
         let kinds = [
-            (Self::Drop, scene.wave.is_some()),
+            (Self::Drop, scene.shallow_water.is_some() || scene.wave.is_some()),
             (Self::Shot, true),
             (Self::Charge, scene.explosions.is_some()),
             (Self::Groove, true),
             (Self::Imprint, !scene.imprints.is_empty()),
+            (Self::Puff, scene.gas.is_some()),
+            (Self::Pour, scene.shallow_water.is_some()),
+            (Self::Drain, scene.shallow_water.is_some()),
         ];
         kinds.into_iter().filter(|(_, is_there)| *is_there).map(|(kind, _)| kind).collect()
     }
@@ -41,6 +52,9 @@ impl BrushKind {
             Self::Charge => "Charge",
             Self::Groove => "Groove",
             Self::Imprint => "Imprint",
+            Self::Puff => "Puff into the gas",
+            Self::Pour => "Pour water",
+            Self::Drain => "Take water",
         }
     }
 }
@@ -65,6 +79,8 @@ impl Brush {
     /// What suits a scene.
     pub fn of(scene: &Scene) -> Self {
         let kind = match scene {
+            Scene { gas: Some(_), .. } => BrushKind::Puff,
+            Scene { shallow_water: Some(_), .. } => BrushKind::Pour,
             Scene { wave: Some(_), .. } => BrushKind::Drop,
             Scene { explosions: Some(_), .. } => BrushKind::Charge,
             Scene { tracks, .. } if !tracks.is_empty() => BrushKind::Groove,
@@ -142,6 +158,19 @@ impl Hand {
         self.random += 1;
         let radius = brush.radius_metres;
         match brush.kind {
+            // A tenth of its radius deep: what a bucket does.
+            BrushKind::Pour | BrushKind::Drain if scene.shallow_water.is_some() => {
+                let sign = if brush.kind == BrushKind::Pour { 0.1 } else { -0.3 };
+                vec![Stroke::Water(Event::pour(lattice.at(uv), lattice.texels(f64::from(radius)), sign * radius))]
+            }
+            BrushKind::Pour | BrushKind::Drain => Vec::new(),
+            BrushKind::Drop if scene.shallow_water.is_some() => {
+                vec![Stroke::Water(Event::dent(lattice.at(uv), 2.0 * lattice.texels(f64::from(radius)), 0.3 * radius, 0.0))]
+            }
+            BrushKind::Puff => {
+                let number = self.random - 1;
+                scene.gas.iter().map(|gas| Stroke::Puff(puff(brush, gas, scene.seed, &lattice, uv, number))).collect()
+            }
             BrushKind::Drop => {
                 // As deep as the heaviest drop of the rain.
                 let drop = Impulse::new(lattice.at(uv), lattice.texels(f64::from(radius)), -1.0);
@@ -196,6 +225,30 @@ impl Hand {
     }
 }
 
+/// How much of a cell's own time a hand's puff takes to turn once: it stirs visibly, and stays below the flow's limit.
+const STIR_CELLS: f64 = 0.5;
+
+/// Puffs of a hand that push the same way: a stroke that is held stirs, and does not only tremble.
+const PUFFS_A_PUSH: u64 = 8;
+
+/// Bright gas that whirls, and drifts off in a direction of its own.
+fn puff(brush: &Brush, gas: &Gas, seed: u64, lattice: &Lattice, uv: [f64; 2], number: u64) -> Puff {
+    let mut random = Random::new(seed, Stream::Hand, number / PUFFS_A_PUSH);
+    let heading = random.between(0.0, std::f64::consts::TAU);
+    let turns = if random.unit() < 0.5 { -1.0 } else { 1.0 };
+    let radius_metres = f64::from(brush.radius_metres);
+    // Half a cell a step at its middle, and at its edge.
+    let speed = STIR_CELLS * gas.cell_metres(lattice.texel_metres) / f64::from(gas.step_seconds);
+    let mass = 0.25 * std::f64::consts::PI * radius_metres.powi(2) / 3.0;
+    Puff {
+        centre: lattice.at(uv),
+        radius: (radius_metres / lattice.texel_metres) as f32,
+        mass: [mass as f32, mass as f32],
+        velocity: [(0.5 * speed * heading.cos()) as f32, (0.5 * speed * heading.sin()) as f32],
+        spin: (turns * 2.0 * speed / radius_metres) as f32,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -240,6 +293,18 @@ mod tests {
         assert!(strokes.iter().any(|stroke| {
             matches!(stroke, Stroke::Press(hole) if hole.profile == Profile::Crater && (hole.centre[0] - 509.0).abs() < 1e-3)
         }));
+    }
+
+    #[test]
+    fn a_puff_is_blown_where_it_was_aimed_and_into_gas_alone() {
+        let scene = Scene { gas: Some(Gas::default()), ..Scene::default() };
+        let brush = Brush::of(&scene);
+        let blown = |scene: &Scene| Hand::default().act(&brush, scene, [100.25, 7.0], 0.0);
+        let [Stroke::Puff(puff)] = blown(&scene)[..] else { panic!("gas takes puffs") };
+        assert!((puff.centre[0] - 100.25).abs() < 1e-3 && (puff.centre[1] - 7.0).abs() < 1e-3);
+        assert!(puff.mass[0] > 0.0 && puff.spin != 0.0);
+        assert_eq!(blown(&scene), blown(&scene));
+        assert_eq!(blown(&Scene::default()), []);
     }
 
     #[test]

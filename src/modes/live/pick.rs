@@ -1,4 +1,6 @@
 //! Picking: which point of the displaced surface a pixel shows. By the very function that drew it ([`Probe`]).
+//!
+//! It is the scene's own relief that is picked, as if nothing stood before it: reliefs beside it are still, and no stroke reaches them.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, VecDeque};

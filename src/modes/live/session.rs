@@ -373,7 +373,7 @@ impl Session {
     pub fn moves(&self) -> bool {
         let scene = &self.panel.scene;
         let turns = scene.light.turn_degrees_per_second != 0.0
-            || (self.rig.follows_scene() && scene.camera.orbit_degrees_per_second != 0.0);
+            || (self.rig.follows_scene() && (scene.camera.orbit_degrees_per_second != 0.0 || scene.camera.swing.is_some()));
         let presses =
             scene.shots.is_some() || scene.explosions.is_some() || !scene.tracks.is_empty() || !scene.imprints.is_empty();
         let heals = self.frame.groundwork().heals() || self.hand.waits();

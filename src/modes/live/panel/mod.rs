@@ -5,10 +5,12 @@
 mod brush;
 mod camera;
 mod detail;
+mod gas;
 mod keys;
 mod light;
 mod material;
 mod noise;
+mod reliefs;
 mod scene;
 mod simulation;
 mod split;
@@ -50,6 +52,8 @@ pub struct Panel {
     pub display: Display,
     /// Which of the lights the panel shows, the scene's own is 0.
     pub light: usize,
+    /// Which of the reliefs beside the scene's own it shows.
+    pub relief: usize,
     /// The left mouse button.
     pub brush: Brush,
     /// How many strokes of the brush can be taken back.
@@ -77,6 +81,7 @@ impl Panel {
             display: Display::default(),
             light: 0,
             undoable: 0,
+            relief: 0,
             paused: false,
             flies: false,
             shown: true,
@@ -91,6 +96,7 @@ impl Panel {
         self.original = scene.clone();
         self.scene = scene;
         self.light = 0;
+        self.relief = 0;
     }
 
     /// Shows another view, on both sides of a divider.
@@ -198,6 +204,7 @@ impl Panel {
         self.detail_group(ui);
         self.light_group(ui);
         self.material_group(ui);
+        self.reliefs_group(ui);
         self.noise_group(ui);
         self.sequence_group(ui);
         self.simulation_group(ui);
