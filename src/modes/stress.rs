@@ -9,8 +9,9 @@ use super::capture::read_channels;
 use super::headless::{self, Headless};
 use super::script::Script;
 use super::statistics::{Spread, Steps};
-use super::{ModeError, progress, wait_for, wait_for_gpu};
+use super::{ModeError, check_health, progress, wait_for, wait_for_gpu};
 use crate::cli::{StressOptions, Verbosity};
+use crate::field::shallow_water;
 use crate::frame::Frame;
 use crate::gpu::{Gpu, PassTime, Readback};
 use crate::io::atomic;
@@ -61,6 +62,10 @@ pub struct Report {
     pub field_bytes_per_texel: f64,
     pub gpu_memory_bytes: u64,
     pub clipped_texels: u64,
+    /// Bytes a texel that a substep of shallow water moves by design; none where there is none.
+    pub water_substep_bytes_per_texel: Option<u64>,
+    /// Simulated time that sources gave up because their substeps reached their cap, seconds.
+    pub behind_seconds: f64,
 }
 
 /// Runs the mode: prints the table, and writes the JSON file if one was asked for.
@@ -83,6 +88,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
     let mut bytes = Vec::new();
     let progress = progress::bar(total, &scene.name, verbosity == Verbosity::Quiet);
     let mut steps = Steps::default();
+    let mut behind_seconds = 0.0;
     for number in 0..total {
         let mut moment = script.next(&gpu, &mut frame, &mut start)?;
         let (count, radius) = (options.stamps, options.stamp_radius);
@@ -96,6 +102,8 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         frame.finish(&gpu, encoder);
         wait_for_gpu(&gpu)?;
         let wall_ms = submitted.elapsed().as_secs_f64() * 1e3;
+        // Asked every frame: what a simulation moved, it alone knows.
+        behind_seconds = check_health(&gpu, &mut frame)?.iter().map(|(_, seconds)| *seconds).fold(0.0, f64::max);
         let times = frame.timer.finished_frame();
         if number >= WARMUP_FRAMES {
             samples.add(wall_ms, times.unwrap_or_default());
@@ -128,6 +136,8 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         field_bytes_per_texel: frame.field_bytes_per_texel(),
         gpu_memory_bytes: frame.memory_bytes(),
         clipped_texels: clipped_texels(&gpu, &frame)?,
+        water_substep_bytes_per_texel: scene.shallow_water.as_ref().map(|_| shallow_water::TEXEL_BYTES),
+        behind_seconds,
     };
     if let Some(path) = &options.json {
         write_json(path, &report)?;
@@ -216,5 +226,9 @@ fn table(report: &Report) -> String {
     line(format_args!("field                  {:.2} bytes a texel", report.field_bytes_per_texel));
     line(format_args!("GPU memory             {:.1} MB", report.gpu_memory_bytes as f64 / 1e6));
     line(format_args!("clipped texels         {}", report.clipped_texels));
+    if let Some(bytes) = report.water_substep_bytes_per_texel {
+        line(format_args!("shallow-water substep  {bytes} bytes a texel by design"));
+        line(format_args!("fallen behind          {:.3} s", report.behind_seconds));
+    }
     text
 }

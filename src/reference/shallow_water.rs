@@ -283,8 +283,8 @@ impl Water {
         let first = (self.steps % 2) as usize;
         self.sweep(first, dt);
         self.sweep(1 - first, dt);
-        for i in 0..self.depth.len() {
-            self.settle(i, before[i], dt);
+        for (i, depth) in before.into_iter().enumerate() {
+            self.settle(i, depth, dt);
         }
         self.steps += 1;
     }

@@ -297,7 +297,7 @@ const METRES: Range = Range::above(0.0, 1e6, "metres");
 const EDGE_METRES: Range = Range::from_to(0.0, 1e6, "metres");
 const SHARE: Range = Range::from_to(0.0, 1.0, "");
 const METRES_PER_SECOND: Range = Range::from_to(-1e4, 1e4, "metres per second");
-const PERIOD: Range = Range::from_to(0.01, 1e6, "seconds");
+const PERIOD: Range = Range::above(0.0, 1e6, "seconds");
 const WAVES: Range = Range::from_to(-256.0, 256.0, "waves");
 
 pub(super) fn validate(noise: &Noise) -> Result<(), SceneError> {

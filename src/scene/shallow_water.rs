@@ -274,3 +274,39 @@ impl Default for Drops {
         Self { per_second: 24.0, radius_metres: 0.02, depth_metres: 0.004 }
     }
 }
+
+#[cfg(test)]
+impl ShallowWater {
+    /// With one of everything.
+    pub(super) fn full() -> Self {
+        let post = Obstacle { centre: [0.5; 2], half_extent_metres: [0.1; 2], corner_metres: 0.02, top: 0.9 };
+        Self {
+            swell: Some(Swell::default()),
+            bodies: vec![Body::default()],
+            drops: Some(Drops::default()),
+            springs: vec![Spring { centre: [0.2; 2], radius_metres: 0.1, metres_per_second: -0.1 }],
+            plungers: vec![Plunger { centre: [0.2; 2], radius_metres: 0.1, depth_metres: 0.1, period_seconds: 1.0 }],
+            obstacles: vec![post],
+            ..Self::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_border_has_one_owner() {
+        let mut scene = Scene { shallow_water: Some(ShallowWater::default()), ..Scene::default() };
+        assert_eq!(scene.validate(), Ok(()));
+        scene.field.addressing = Addressing::Wrap;
+        let refusal = scene.validate().expect_err("walls in a field that repeats").to_string();
+        assert!(refusal.contains("shallow_water.borders") && refusal.contains("wall in the west"), "{refusal}");
+        let water = scene.shallow_water.as_mut().expect("it was just made");
+        water.borders = [Border::Periodic; 4];
+        assert_eq!(scene.validate(), Ok(()));
+        scene.field.addressing = Addressing::Clamp;
+        assert!(scene.validate().is_err(), "water that repeats in a field that ends");
+    }
+}

@@ -408,6 +408,7 @@ mod tests {
             ..Relief::default()
         };
         Scene {
+            shallow_water: Some(crate::scene::ShallowWater::full()),
             wave: Some(Wave {
                 boundary: Boundary::Absorbing,
                 rain: Some(Rain::default()),

@@ -7,7 +7,7 @@ use crate::support::gpu::gpu;
 use crate::support::tolerances::{GOLDEN_LEVELS, GOLDEN_OUTLIERS};
 
 /// Name of the golden, and what captures it.
-const GOLDENS: [(&str, &[&str]); 21] = [
+const GOLDENS: [(&str, &[&str]); 24] = [
     ("ripples", &["--scene", "ripples", "--warmup", "60"]),
     ("bullet-wall", &["--scene", "bullet-wall", "--warmup", "60"]),
     ("explosions", &["--scene", "explosions", "--warmup", "60"]),
@@ -25,6 +25,9 @@ const GOLDENS: [(&str, &[&str]); 21] = [
     ("planet", &["--scene", "planet", "--field", "256x128"]),
     ("columns", &["--scene", "columns", "--warmup", "60"]),
     ("dunes", &["--scene", "dunes", "--warmup", "60", "--field", "384x384"]),
+    ("dam-break", &["--scene", "dam-break", "--warmup", "50", "--field", "160x120"]),
+    ("harbour", &["--scene", "harbour", "--warmup", "150", "--field", "192"]),
+    ("rain-on-cobbles", &["--scene", "rain-on-cobbles", "--warmup", "60", "--field", "192"]),
     ("clockwork", &["--scene", "clockwork", "--warmup", "60"]),
     ("relief-pom", &["--scene", "relief", "--technique", "pom", "--shadow", "pom-soft"]),
     ("relief-ggx", &["--scene", "relief", "--shading", "ggx"]),

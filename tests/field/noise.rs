@@ -158,3 +158,44 @@ fn seeds_differ() {
     }
     assert_ne!(salt(1 << 40), salt(0));
 }
+
+#[test]
+fn the_extremes_of_every_setting_stay_within_range() {
+    let Some(gpu) = gpu() else { return };
+    let (least, most) = (1e-30, 1e6);
+    let fractal = FractalNoise { octaves: 12, lacunarity: 4.0, gain: 1.0, contrast: 100.0, ..FractalNoise::default() };
+    let columns = Columns { waves: [256, -256], disorder: 1.0, ..Columns::default() };
+    let dunes = Dunes { meander: 4.0, ripple_height: 1.0, speed_metres_per_second: 1e4, ..Dunes::default() };
+    let patterns = [least, most].into_iter().flat_map(|size| {
+        let other = if size == least { most } else { least };
+        [
+            NoisePattern::Fractal(FractalNoise {
+                feature_metres: size,
+                evolution_per_second: -100.0,
+                drift_metres_per_second: [1e4, -1e4],
+                ..fractal.clone()
+            }),
+            NoisePattern::Fractal(FractalNoise { feature_metres: size, gain: 0.0, fold: Fold::Ridged, ..fractal.clone() }),
+            NoisePattern::Columns(Columns {
+                pitch_metres: size,
+                edge_metres: 0.0,
+                gap_metres: other,
+                period_seconds: size,
+                ..columns.clone()
+            }),
+            NoisePattern::Scales(Scales { pitch_metres: size, edge_metres: 0.0, period_seconds: other, ..Scales::default() }),
+            NoisePattern::Gears(Gears { module_metres: size, edge_metres: 0.0, turns_per_second: 100.0, ..Gears::default() }),
+            NoisePattern::Dunes(Dunes { wavelength_metres: size, ripple_metres: other, crest: 0.05, ..dunes.clone() }),
+        ]
+    });
+    for pattern in patterns {
+        for size in [[1, 1], [1, 64], [37, 23]] {
+            for addressing in ADDRESSINGS {
+                let heights = evaluated(gpu, &pattern, &ground(size, addressing), 1e6);
+                // A NaN lies in no range.
+                let stray = heights.iter().find(|height| !(0.0..=1.0).contains(*height));
+                assert_eq!(stray, None, "{pattern:?} {size:?} {addressing:?}");
+            }
+        }
+    }
+}

@@ -198,7 +198,8 @@ impl Bench {
 
 /// A scene over a field of another size, which does not move.
 pub fn resized(scene: &Scene, size: [u32; 2]) -> Scene {
-    let mut scene = Scene { noise: None, sequence: None, wave: None, shots: None, ..scene.clone() };
+    let still = Scene { noise: None, sequence: None, gas: None, shallow_water: None, wave: None, shots: None, ..scene.clone() };
+    let mut scene = still;
     scene.field.size = size;
     scene
 }

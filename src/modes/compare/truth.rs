@@ -29,7 +29,8 @@ pub fn reference(scene: &Scene, heights: Vec<f32>, camera: &Camera, image_size: 
     };
     let [width, height] = image_size;
     let row = |y: u32| (0..width).map(move |x| (x, y));
-    let point = |(x, y): (u32, u32)| pixel(&field, &target, camera, image_size, [f64::from(x) + 0.5, f64::from(y) + 0.5]);
+    let repeat = scene.plane.repeat.map(f64::from);
+    let point = |(x, y): (u32, u32)| pixel(&field, &target, repeat, camera, image_size, [f64::from(x) + 0.5, f64::from(y) + 0.5]);
     // Neighbouring rows cost alike and distant ones do not: deal them out in turn.
     let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get() as u32);
     let mut rows: Vec<Vec<Option<Point>>> = vec![Vec::new(); height as usize];
@@ -49,12 +50,19 @@ pub fn reference(scene: &Scene, heights: Vec<f32>, camera: &Camera, image_size: 
     rows.concat()
 }
 
-fn pixel(field: &HeightField, target: &Target, camera: &Camera, image_size: [u32; 2], pixel: [f64; 2]) -> Option<Point> {
+/// What a pixel shows of a plane that shows the field `repeat` times along u and v.
+fn pixel(
+    field: &HeightField,
+    target: &Target,
+    repeat: [f64; 2],
+    camera: &Camera,
+    image_size: [u32; 2],
+    pixel: [f64; 2],
+) -> Option<Point> {
     let line = ray_map::ray(camera, image_size, target, pixel)?;
-    let [x, y] = line.lattice;
     let size = target.field_size.map(f64::from);
-    let on_plane = (-0.5..=size[0] - 0.5).contains(&x) && (-0.5..=size[1] - 0.5).contains(&y);
-    if !on_plane {
+    let on_plane = |axis: usize| (line.lattice[axis] + 0.5 - 0.5 * size[axis]).abs() <= 0.5 * repeat[axis] * size[axis];
+    if !(on_plane(0) && on_plane(1)) {
         return None;
     }
     // Above the highest texel there is nothing to meet, and below the floor no surface.
@@ -80,6 +88,9 @@ mod tests {
         let image_size = [31, 21];
         let points = reference(&scene, vec![0.25; 32], &camera, image_size);
         assert_eq!(points.len(), 31 * 21);
+        // Three times as wide, it fills the picture.
+        scene.plane.repeat = [3, 9];
+        assert!(reference(&scene, vec![0.25; 32], &camera, image_size).iter().all(Option::is_some));
         // Straight down in the middle.
         let middle = points[10 * 31 + 15].unwrap();
         assert!(middle.position.distance(DVec3::new(0.0, -0.075, 0.0)) < 1e-7, "{middle:?}");
