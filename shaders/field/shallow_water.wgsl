@@ -56,6 +56,22 @@ fn home(axis: u32, texel: i32) -> i32 {
     return clamp(select(texel, mirrored, border == SHALLOW_WATER_WALL), 0, n - 1);
 }
 
+// What of a velocity leaves by an open border: out, not in.
+fn outward(velocity: f32, texel: i32) -> f32 {
+    return select(max(velocity, 0.0), min(velocity, 0.0), texel < 0);
+}
+
+// A cell between the two directions. Beyond a border of the second one it is what that direction finds there: of an open border what
+// the first has made of the texels inside, without what would come in; at sea what it was.
+fn between(swept: vec4f, before: vec4f, across: i32, end: i32, axis: u32) -> vec4f {
+    if across >= 0 && across < end {
+        return swept;
+    }
+    let border = border_of(axis, across);
+    let open = vec4f(swept.xy, outward(swept.z, across), swept.w);
+    return select(select(swept, open, border == SHALLOW_WATER_OPEN), before, border == SHALLOW_WATER_SEA);
+}
+
 // Loads a cell; whether its state is all numbers is the answer.
 fn load_cell(texel: vec2i, slot: u32, turned: bool) -> bool {
     let size = vec2i(params.size);
@@ -72,9 +88,8 @@ fn load_cell(texel: vec2i, slot: u32, turned: bool) -> bool {
             let border = border_of(axis, texel[axis]);
             if border == SHALLOW_WATER_WALL {
                 velocity[axis] = -velocity[axis];
-            } else if border == SHALLOW_WATER_OPEN {
-                // Out, not in.
-                velocity[axis] = select(max(velocity[axis], 0.0), min(velocity[axis], 0.0), texel[axis] < 0);
+            } else if border == SHALLOW_WATER_OPEN && (axis == 1u) == turned {
+                velocity[axis] = outward(velocity[axis], texel[axis]);
             } else if border == SHALLOW_WATER_SEA {
                 // A wave that comes in carries its own velocity with it; one that goes out meets nothing.
                 depth = max(params.sea_metres + control.rise - bed_metres, 0.0);
@@ -288,8 +303,9 @@ fn shallow_water_step(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_in
             let face = row * (tile + 1u) + column - SHALLOW_WATER_HALO;
             let after = moved(kept[k], face, face + 1u, ratio);
             is_number = after.is_number && is_number;
-            cells[slot] = after.cell;
-            stocks[slot] = after.cell.x;
+            let swept = between(after.cell, kept[k], start.y + i32(row), size.y, select(1u, 0u, turned));
+            cells[slot] = swept;
+            stocks[slot] = swept.x;
         }
     }
     workgroupBarrier();

@@ -112,6 +112,7 @@ pub struct View {
     pub moment: f32,
     pub glow: f32,
     pub detail: ViewDetail,
+    pub pad_detail: [u32; 2],
     pub slabs: [Slab; SLABS_MAX],
     pub slab_penumbra: f32,
     pub pad_slabs: [u32; 3],
