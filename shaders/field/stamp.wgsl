@@ -154,7 +154,8 @@ fn stamp_press(
             place.inside &= within;
             if any(place.inside) {
                 covered |= place.inside;
-                if stamp.profile == STAMP_CRATER {
+                // An image is all that it is pressed with: no grain is added to it.
+                if stamp.profile == STAMP_CRATER && (!STAMP_FORMS || extra.half_extent.x == 0.0) {
                     place.profile += extra.irregularity * grain * saturate(3.0 - place.s * (3.0 / STAMP_RIM_SQUARED));
                 }
                 height = select(height, stamp_blend(stamp, height, place.profile), place.inside);

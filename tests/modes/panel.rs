@@ -163,7 +163,7 @@ fn choices_are_made_and_reset() {
 
     harness.get_by_role_and_label(Role::ComboBox, "Kind").click();
     harness.run();
-    harness.get_by_label("Shot into the wall").click();
+    harness.get_by_label("Shot").click();
     harness.run();
     assert_eq!(harness.state().panel.brush.kind, BrushKind::Shot);
 }
