@@ -7,7 +7,7 @@ use super::{capture, rilievo};
 const SMALL: &[&str] = &["--size", "96x64", "--field", "64", "--channels", "color,position,normal,height,steps"];
 
 /// Scenes in which something moves by a state of its own.
-const LIVING: [&str; 2] = ["ripples", "bullet-wall"];
+const LIVING: [&str; 6] = ["ripples", "bullet-wall", "explosions", "snow", "dam-break", "gas-planet"];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     SMALL.iter().chain(more).copied().collect()

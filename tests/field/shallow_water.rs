@@ -1,5 +1,7 @@
 //! Shallow water: its shader against its reference, and both against what is known in closed form.
 
+use std::f64::consts::TAU;
+
 use rilievo::field::shallow_water::{
     Event, ShallowWater, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSet, ShallowWaterSpell,
 };
@@ -303,24 +305,21 @@ fn a_seiche_keeps_its_time() {
     }
 }
 
-/// A hilly bed with dry hills and water that sloshes in it.
-fn rough(basin: &mut Basin, level: f64) {
+/// A hilly bed with dry hills and water that sloshes in it; without a seam where it repeats.
+fn rough(basin: &mut Basin, level: f64, repeats: bool) {
     let [width, height] = basin.params.size.map(|side| f64::from(side) * f64::from(basin.params.texel_metres));
-    let hills = move |[x, y]: [f64; 2]| {
-        0.5 + 0.4 * (7.0 * x / width).sin() * (5.0 * y / height).cos() + 0.2 * (11.0 * x / width + 3.0 * y / height).sin()
+    // Angles across the field, of waves that need not end where they began, or must.
+    let angle = move |[x, y]: [f64; 2], [u, v]: [f64; 2]| {
+        let [u, v] = if repeats { [u, v].map(|turns| (turns / TAU).ceil() * TAU) } else { [u, v] };
+        u * x / width + v * y / height
     };
+    let hills =
+        move |at| 0.5 + 0.4 * angle(at, [7.0, 0.0]).sin() * angle(at, [0.0, 5.0]).cos() + 0.2 * angle(at, [11.0, 3.0]).sin();
     basin.put_bed(hills);
     basin.put(|at| {
-        let depth = (level + 0.3 * (3.0 * at[0] / width).cos() - hills(at)).max(0.0);
-        [depth, 0.3 * (4.0 * at[1] / height).sin(), -0.2, if at[0] < width / 3.0 { 0.7 } else { 0.0 }]
+        let depth = (level + 0.3 * angle(at, [3.0, 0.0]).cos() - hills(at)).max(0.0);
+        [depth, 0.3 * angle(at, [0.0, 4.0]).sin(), -0.2, if at[0] < width / 3.0 { 0.7 } else { 0.0 }]
     });
-}
-
-/// Rounds a state as the GPU stores it.
-fn round_to_f32(water: &mut Water) {
-    let round = |value: &mut f64| *value = f64::from(*value as f32);
-    water.depth.iter_mut().chain(&mut water.foam).for_each(round);
-    water.flow.iter_mut().flatten().for_each(round);
 }
 
 #[test]
@@ -331,33 +330,27 @@ fn equals_the_reference_at_odd_sizes_with_every_border() {
             (settings.friction, settings.rain, settings.seepage) = (0.01, 0.002, 0.001);
             settings.sea_metres = 0.6;
             let Some(mut basin) = Basin::new(settings) else { return };
-            rough(&mut basin, 0.6);
+            rough(&mut basin, 0.6, border == Border::Periodic);
             let mut expected = basin.reference();
             // Half of what is stable, so that neither side divides a step.
             let seconds = f64::from((0.2 * 0.1 / expected.speed.max(1.0)) as f32);
             let steps = if size[0] > 100 { 6 } else { 40 };
-            // The same with a state of f32, as the GPU has it: what rounding alone makes of a film or at a limiter's corner.
-            let mut rounded = expected.clone();
             for _ in 0..steps {
                 expected.step(seconds);
-                rounded.step(seconds);
-                round_to_f32(&mut rounded);
             }
-            let apart = |a: &Water, index: usize, depth: f64, flow: [f64; 2], foam: f64| {
-                let [u, v] = [0, 1].map(|axis| flow[axis] - a.flow[index][axis]);
-                (depth - a.depth[index]).abs().max(u.hypot(v)).max((foam - a.foam[index]).abs() * depth)
-            };
             basin.run(steps, seconds);
             assert_eq!(basin.control().substeps, steps, "{border:?}, {size:?}");
             let states = basin.states();
+            let mut decided = 0;
             for (index, state) in states.iter().enumerate() {
-                let off = apart(&expected, index, state[0], [state[1], state[2]], state[3]);
-                let own = apart(&expected, index, rounded.depth[index], rounded.flow[index], rounded.foam[index]);
-                if off > WATER_STEPS {
-                    println!("{border:?}, {size:?}, texel {index}: {off:.2e}, rounding {own:.2e}, {state:?}");
-                }
-                assert!(off <= WATER_STEPS + 100.0 * own, "{border:?}, {size:?}, texel {index}: {off:.2e}, {state:?}");
+                let [depth, foam] = [state[0] - expected.depth[index], (state[3] - expected.foam[index]) * state[0]];
+                let flow = (state[1] - expected.flow[index][0]).hypot(state[2] - expected.flow[index][1]);
+                let off = depth.abs().max(flow.abs()).max(foam.abs());
+                assert!(off <= WATER_STEPS_DECIDED, "{border:?}, {size:?}, texel {index}: {off:.2e}, {state:?}");
+                decided += usize::from(off > WATER_STEPS);
             }
+            println!("{border:?}, {size:?}: {decided} of {} decided otherwise", states.len());
+            assert!(decided as f64 <= WATER_DECIDED_SHARE * states.len() as f64, "{border:?}, {size:?}: {decided} texels");
         }
     }
 }
@@ -365,7 +358,7 @@ fn equals_the_reference_at_odd_sizes_with_every_border() {
 #[test]
 fn walls_keep_the_mass() {
     let Some(mut basin) = Basin::new(params([100, 70], 0.1, Border::Wall)) else { return };
-    rough(&mut basin, 0.7);
+    rough(&mut basin, 0.7, false);
     basin.cap(4);
     let before = basin.mass();
     for _ in 0..20 {
@@ -383,7 +376,7 @@ fn rain_and_seepage_are_what_falls_and_what_is_taken() {
     let mut settings = params([40, 30], 0.1, Border::Wall);
     settings.rain = 0.01;
     let Some(mut basin) = Basin::new(settings) else { return };
-    rough(&mut basin, 0.4);
+    rough(&mut basin, 0.4, false);
     let before = basin.mass();
     basin.run(100, 0.01);
     let rained = (basin.mass() - before) / (40.0 * 30.0);
@@ -407,7 +400,7 @@ fn a_dent_and_its_ring_have_no_net() {
             ([5.0, 5.0], 4.0, -9.0),
         ] {
             let Some(mut basin) = Basin::new(params([100, 70], 0.1, border)) else { return };
-            rough(&mut basin, level);
+            rough(&mut basin, level, false);
             let before = basin.states();
             basin.run_with(0, 0.0, &[(0, Event::dent(centre, radius, 0.5, 1.0))]);
             let after = basin.states();
@@ -505,7 +498,7 @@ fn a_bed_that_is_no_number_is_a_wall() {
 fn what_is_no_number_stops_the_water_at_its_last_good_state() {
     for poison in [[f64::from(f32::MAX), 0.0], [f64::NAN, 0.0], [1.0, f64::INFINITY]] {
         let Some(mut basin) = Basin::new(params([40, 40], 0.1, Border::Wall)) else { return };
-        rough(&mut basin, 0.7);
+        rough(&mut basin, 0.7, false);
         basin.run(3, 0.01);
         let mut states = basin.states();
         let control = basin.control();
@@ -532,7 +525,7 @@ fn what_is_no_number_stops_the_water_at_its_last_good_state() {
 #[test]
 fn falling_behind_is_counted_and_costs_nothing_else() {
     let Some(mut basin) = Basin::new(params([64, 64], 0.01, Border::Wall)) else { return };
-    rough(&mut basin, 0.7);
+    rough(&mut basin, 0.7, false);
     basin.set.set_params(basin.gpu, &basin.params, 2);
     // 0.1 s would take some 60 substeps.
     basin.run(5, 0.1);
@@ -551,7 +544,7 @@ fn falling_behind_is_counted_and_costs_nothing_else() {
 fn steps_cut_into_frames_are_the_same_to_the_bit() {
     let run = |frames: &[u32]| -> Option<Vec<State>> {
         let mut basin = Basin::new(params([50, 40], 0.05, Border::Wall))?;
-        rough(&mut basin, 0.6);
+        rough(&mut basin, 0.6, false);
         frames.iter().for_each(|steps| basin.run(*steps, 1.0 / 120.0));
         Some(basin.states())
     };
