@@ -1,8 +1,8 @@
 //! Gas: an incompressible fluid in two dimensions, on a staggered grid of cells that cover the field.
 //!
-//! A step emits ([`gas_emit`](super::gas_emit)), finds the tiles with work in them ([`gas_activity`](super::gas_activity)), carries
-//! everything along the flow ([`gas_advect`](super::gas_advect)), lets forces act ([`gas_force`](super::gas_force)), takes the
-//! divergence ([`gas_project`](super::gas_project)) and shows what has come of it ([`gas_show`](super::gas_show)).
+//! A step emits (`gas_emit`), finds the tiles with work in them (`gas_activity`), carries
+//! everything along the flow (`gas_advect`), lets forces act (`gas_force`), takes the
+//! divergence (`gas_project`) and shows what has come of it (`gas_show`).
 //!
 //! # What a step moves, bytes a cell by design
 //!

@@ -1,6 +1,6 @@
 //! Journals: what was done to a field, frame by frame, so that another run does the same.
 //!
-//! A journal is lines of JSON: a [`Header`], an [`Entry`] a frame, and an [`End`] that says how many there were, without which it is
+//! A journal is lines of JSON: a header, an [`Entry`] a frame, and an end that says how many there were, without which it is
 //! not whole. What a scene does by itself is a function of its seed and of the time: a journal holds the time, what the hand did, and
 //! whatever changed in the scene.
 

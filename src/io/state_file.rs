@@ -1,6 +1,6 @@
 //! State files: all that a running field remembers, so that another run goes on from there.
 //!
-//! A file is [`MAGIC`], the length of the header (u64), the header in JSON, the bytes of every texture and buffer in the header's
+//! A file is a line of magic, the length of the header (u64), the header in JSON, the bytes of every texture and buffer in the header's
 //! order, and the CRC-32 of all that. Numbers are little-endian. It holds what one build of the program on one kind of adapter needs
 //! to go on to the byte; it is no exchange format.
 

@@ -214,7 +214,7 @@ pub fn journal(options: &ResumeOptions) -> Result<Option<Journal>, JournalError>
     options.replay.as_deref().map(journal::read).transpose()
 }
 
-/// Where a run of this scene begins, of which `journal` is what [`journal`] read.
+/// Where a run of this scene begins, of which `journal` is what [`fn@journal`] read.
 ///
 /// # Errors
 ///

@@ -35,7 +35,7 @@ pub struct Forces {
     pub buoyancy: f64,
     /// No component is faster, m/s.
     pub speed_limit: f64,
-    /// A slope of |vorticity| below which confinement fades, m/s: see [`CONFINEMENT_FLOOR`].
+    /// A slope of |vorticity| below which confinement fades, m/s: see `CONFINEMENT_FLOOR` in `field::gas_source`.
     pub confinement_floor: f64,
     /// What each row tends to.
     pub rows: Vec<Row>,
