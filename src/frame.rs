@@ -14,7 +14,7 @@ use crate::field::groundwork::Groundwork;
 use crate::field::sequence::Images;
 use crate::field::source::{self, Health, Source, State};
 use crate::field::stamp::StampImage;
-use crate::field::{self, Cover, Field, Region, Stack, base, material, normal_mips, normals, pyramid, stack};
+use crate::field::{self, Cover, Dirty, Field, Region, Stack, base, bounds, material, normal_mips, normals, pyramid, stack};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
 use crate::mesh::{Mesh, shapes};
 use crate::present::{Present, PresentSet};
@@ -180,6 +180,8 @@ pub struct Frame {
     image_size: [u32; 2],
     /// The picture of a series that lies over the field.
     colours: Option<Arc<ColourImage>>,
+    /// Whether there may be anything on the material.
+    stamped: bool,
     traffic: Traffic,
 }
 
@@ -235,6 +237,7 @@ impl Frame {
             present_set,
             image_size,
             colours: None,
+            stamped: true,
             traffic: Traffic::default(),
         };
         frame.reset(gpu, start);
@@ -246,6 +249,7 @@ impl Frame {
     pub fn reset(&mut self, gpu: &Gpu, start: &Start) {
         self.field.relief.write(gpu, &start.heights);
         self.field.material.write(gpu, &start.material);
+        self.note_stamped(start.material.iter().any(|bits| *bits != 0));
         self.groundwork.reset(gpu, &start.heights);
         self.stack.reset(gpu, &self.scene);
         self.reliefs.reset(gpu, start);
@@ -337,7 +341,8 @@ impl Frame {
     /// What is seen of the scene on each side of what is shown.
     fn sides(&self, display: &Display) -> Vec<Side> {
         let [width, _] = traced_size(&self.scene, self.image_size);
-        let side = |name, scene, shows, columns| Side { name, scene, display: Display { shows, ..*display }, columns };
+        let stamped = self.stamped;
+        let side = |name, scene, shows, columns| Side { name, scene, display: Display { shows, ..*display }, columns, stamped };
         match (display.divider(self.image_size[0], self.scene.trace.supersampling), &display.split) {
             // Two looks at the same instant of the same field, each with a time of its own.
             (Some(column), Some(split)) => vec![
@@ -454,6 +459,7 @@ impl Frame {
         self.stack.relief_changed(&pressed, self.field.size);
         // Advance what moves over it by the steps that the clock owes, with what disturbs it.
         self.stack.advance(recorder, &self.scene, input.tick, input.strokes, self.field.size)?;
+        self.note_stamped(self.stamped || pressed != Dirty::Nothing);
         let Some(target) = target else { return Ok(()) };
         self.build_for(gpu, &input.display)?;
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
@@ -555,6 +561,15 @@ impl Frame {
     pub fn restore(&mut self, numbers: &[Vec<u64>]) {
         self.stack.restore(numbers.get(1..).unwrap_or_default());
         self.groundwork.resume();
+        self.note_stamped(true);
+    }
+
+    /// Whether there may be anything on the material: what is not there is not read.
+    fn note_stamped(&mut self, stamped: bool) {
+        if self.stamped != stamped {
+            self.stamped = stamped;
+            self.built_for = None;
+        }
     }
 
     /// The source of this name, if the scene has it.
@@ -586,7 +601,7 @@ impl Frame {
     /// tiles that a changed region is rounded to, are not counted.
     pub fn field_traffic_bytes(&self) -> u64 {
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
-        let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES;
+        let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES + bounds::TEXEL_BYTES;
         self.stack.traffic_bytes() + self.groundwork.traffic_bytes() + self.traffic.derived_texels * derived
     }
 
@@ -594,9 +609,9 @@ impl Frame {
     pub fn picture_traffic_bytes(&self, mean_steps: f64) -> f64 {
         let traced = traced_size(&self.scene, self.image_size).map(f64::from);
         let shown = self.image_size.map(f64::from);
-        // A step reads a node or a sample; a shaded pixel its four corners, its normal and its material; radiance is written
-        // once and read once.
-        traced[0] * traced[1] * (4.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
+        // A step reads a node and the four corners of a cell, or a sample of four texels; a shaded pixel its four corners, its normal
+        // and its material; radiance is written once and read once.
+        traced[0] * traced[1] * (20.0 * mean_steps + 16.0 + 8.0 + 4.0 + 2.0 * 8.0) + shown[0] * shown[1] * 4.0
     }
 }
 
@@ -607,11 +622,15 @@ struct Side {
     display: Display,
     /// Of the traced picture.
     columns: Range<u32>,
+    /// Whether there may be anything on the material.
+    stamped: bool,
 }
 
 impl Side {
     fn choice(&self) -> Choice {
-        Choice::of(&self.scene).showing(self.display.shows)
+        let choice = Choice::of(&self.scene).showing(self.display.shows);
+        // A scene that stamps will: its pipeline need not be built twice.
+        Choice { stamped: self.stamped || choice.marks, ..choice }
     }
 }
 

@@ -172,20 +172,20 @@ fn the_contract_table_is_true() {
         let format = format!("{:?}", contract.format).to_lowercase();
         let bytes = contract.bytes_per_texel() * f64::from(*count);
         assert!(columns[1].starts_with(&format), "{row}: the format is {format}");
-        assert_eq!(columns[2], in_thirds(bytes), "{row}: bytes a texel");
+        assert_eq!(columns[2], in_sixths(bytes), "{row}: bytes a texel");
         assert_eq!(columns[4], contract.writer, "{row}: writer");
         assert_eq!(columns[5], contract.readers, "{row}: readers");
     }
     let sum = field::bytes_per_texel(field::CONTRACT);
-    assert!(source.contains(&format!("*{} in every field*", in_thirds(sum))), "the sum is {sum}");
+    assert!(source.contains(&format!("*{} in every field*", in_sixths(sum))), "the sum is {sum}");
     for (name, contract) in field::SOURCE_CONTRACTS {
-        let sum = in_thirds(field::bytes_per_texel(*contract));
+        let sum = in_sixths(field::bytes_per_texel(*contract));
         assert!(source.contains(&format!("*{sum} more with {name}*")), "{name} adds {sum}");
     }
 }
 
-/// A number of bytes as the table writes it: mips add a third.
-fn in_thirds(bytes: f64) -> String {
-    let thirds = (3.0 * bytes).round() as u32;
-    format!("{}{}", thirds / 3, ["", "⅓", "⅔"][thirds as usize % 3])
+/// A number of bytes as the table writes it: mips add a third, levels side by side a half.
+fn in_sixths(bytes: f64) -> String {
+    let sixths = (6.0 * bytes).round() as u32;
+    format!("{}{}", sixths / 6, ["", "⅙", "⅓", "½", "⅔", "⅚"][sixths as usize % 6])
 }

@@ -4,6 +4,7 @@ use std::mem::{offset_of, size_of};
 
 use rilievo::field::bins::{Member, Tile};
 use rilievo::field::blocks::Blocks;
+use rilievo::field::bounds::BoundsParams;
 use rilievo::field::compose::{ComposeLayer, ComposeParams};
 use rilievo::field::cool::CoolParams;
 use rilievo::field::gas::GasParams;
@@ -39,7 +40,8 @@ use wgpu::naga;
 
 /// Every composition that the program can ask for.
 fn compositions() -> Vec<Vec<String>> {
-    let fixed: [&[&str]; 19] = [
+    let fixed: [&[&str]; 20] = [
+        &["common/region", "common/range", "field/bounds"],
         &["common/region", "field/compose"],
         &["common/gas", "field/gas_activity"],
         &["common/gas", "field/gas_advect"],
@@ -231,6 +233,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("ComposeLayer", layout!(ComposeLayer { amplitude, blend })),
         ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size, wrap })),
         ("NormalMipsParams", layout!(NormalMipsParams { blocks, source_size, size, last_weight })),
+        ("BoundsParams", layout!(BoundsParams { blocks, source_size, source_origin, size, origin, wrap })),
         ("PyramidParams", layout!(PyramidParams { blocks, source_size, size, wrap })),
         ("NoiseParams", layout!(NoiseParams { size, texel_metres, count, salt, wrap, field_metres })),
         ("NoiseLattice", layout!(NoiseLattice { scale, fraction, cell, period, slices, slice_fraction, weight, salt })),

@@ -4,6 +4,7 @@
 //   pyramid       r32float, mips   upper bound of the bilinear surface over a node
 //   normal_map    rgba16float, mips  level 0: unit normal in field space, height; above it their means
 //   material_map  r32uint          soot, bare, post, gloss, heat: see common/material.wgsl
+//   bounds        r32float         range of the bilinear surface over a node, levels side by side: see common/range.wgsl
 //   cover_map     rgba16float      what a simulation lays over the surface, for its albedo; 1×1 where none does
 //
 // Composed after common/view.wgsl.
@@ -14,6 +15,7 @@
 @group(1) @binding(3) var material_map: texture_2d<u32>;
 // Binding 4 is the picture of surface/albedo_image.wgsl.
 @group(1) @binding(5) var cover_map: texture_2d<f32>;
+@group(1) @binding(6) var bounds: texture_2d<f32>;
 
 // The texel that an unbounded coordinate means, an axis.
 fn address(texel: vec2i) -> vec2i {
@@ -33,29 +35,19 @@ fn field_wrapped(texel: vec2i, size: vec2i) -> vec2i {
     return select(risen, risen - size, risen >= size);
 }
 
-// The texel after the one that `texel` means, `here`, on each axis.
-fn address_after(texel: vec2i, here: vec2i) -> vec2i {
-    let size = vec2i(view.field_size);
-    if view.wrap == 0u {
-        return clamp(texel + 1, vec2i(0), size - 1);
-    }
-    return select(here + 1, vec2i(0), here == size - 1);
-}
-
 fn load_height(texel: vec2i) -> f32 {
     return textureLoad(height, address(texel), 0).r;
 }
 
-// The four corners of a cell: (x, y), (x+1, y), (x, y+1), (x+1, y+1).
+// Where the corners of a cell meet, in the texture: what is gathered there is half a texel from any other choice, so that a cell may be
+// as far beyond the border as positions are known to half a texel. One gather takes lavapipe a third of the time of four loads.
+fn gather_uv(cell: vec2i) -> vec2f {
+    return vec2f(cell + 1) / vec2f(view.field_size);
+}
+
+// The four corners of a cell: (x, y), (x+1, y), (x, y+1), (x+1, y+1). What the sampler does beyond the border is the field's addressing.
 fn load_corners(cell: vec2i) -> vec4f {
-    let low = address(cell);
-    let high = address_after(cell, low);
-    return vec4f(
-        textureLoad(height, low, 0).r,
-        textureLoad(height, vec2i(high.x, low.y), 0).r,
-        textureLoad(height, vec2i(low.x, high.y), 0).r,
-        textureLoad(height, high, 0).r,
-    );
+    return textureGather(0, height, nearest, gather_uv(cell)).wzxy;
 }
 
 // The surface at a lattice position, in full precision: hardware filters have about 8 bits of fraction.

@@ -124,6 +124,7 @@ struct View {
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;
 @group(0) @binding(1) var bilinear: sampler;
+@group(0) @binding(2) var nearest: sampler;
 
 // How many lights shine; there are no more in `lights`. Fixed when the pipeline is built: a software adapter runs a loop's body once
 // more than it need, and reads every light there for each lane by itself.

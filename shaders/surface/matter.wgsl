@@ -20,36 +20,41 @@ struct Matter {
     reflection: f32,  // how much of its surroundings it mirrors, of what Fresnel allows
 }
 
+// Whether there is anything on the material. Fixed when the pipeline is built: a large field's is as much to read as its heights.
+override STAMPED: bool = true;
+
 // What stamps left at a lattice position: soot, bare, post, gloss, each 0 to 1, bilinear.
 fn stamped_matter(lattice: vec2f) -> vec4f {
-    let cell = vec2i(floor(lattice));
+    if !STAMPED {
+        return vec4f(0.0);
+    }
     let f = fract(lattice);
-    let low = address(cell);
-    let high = address_after(cell, low);
-    let north = mix(stamped_texel(low), stamped_texel(vec2i(high.x, low.y)), f.x);
-    let south = mix(stamped_texel(vec2i(low.x, high.y)), stamped_texel(high), f.x);
+    let corners = stamped_corners(lattice);
+    let north = mix(stamped_texel(corners.x), stamped_texel(corners.y), f.x);
+    let south = mix(stamped_texel(corners.z), stamped_texel(corners.w), f.x);
     return mix(north, south, f.y);
 }
 
-fn stamped_texel(texel: vec2i) -> vec4f {
-    let bits = textureLoad(material_map, texel, 0).r;
+fn stamped_corners(lattice: vec2f) -> vec4u {
+    return textureGather(0, material_map, nearest, gather_uv(vec2i(floor(lattice)))).wzxy;
+}
+
+fn stamped_texel(bits: u32) -> vec4f {
     let levels = vec4f(material_soot(bits), material_bare(bits), material_post(bits), material_gloss(bits));
     return levels / vec4f(255.0, 255.0, 1.0, 31.0);
 }
 
 // How brightly what stamps left glows, of 1, bilinear.
 fn stamped_glow(lattice: vec2f) -> f32 {
-    let cell = vec2i(floor(lattice));
     let f = fract(lattice);
-    let low = address(cell);
-    let high = address(cell + 1);
-    let north = mix(stamped_glow_texel(low), stamped_glow_texel(vec2i(high.x, low.y)), f.x);
-    let south = mix(stamped_glow_texel(vec2i(low.x, high.y)), stamped_glow_texel(high), f.x);
+    let corners = stamped_corners(lattice);
+    let north = mix(stamped_glow_texel(corners.x), stamped_glow_texel(corners.y), f.x);
+    let south = mix(stamped_glow_texel(corners.z), stamped_glow_texel(corners.w), f.x);
     return mix(north, south, f.y);
 }
 
-fn stamped_glow_texel(texel: vec2i) -> f32 {
-    return material_glow(material_heat(textureLoad(material_map, texel, 0).r), view.moment);
+fn stamped_glow_texel(bits: u32) -> f32 {
+    return material_glow(material_heat(bits), view.moment);
 }
 
 // The material where stamps polished it, or left it hot.

@@ -53,7 +53,7 @@ struct Hit {
     lattice: vec2f, // lattice position of the hit, on the ray; not wrapped
     height: f32,    // height of the ray there
     t: f32,
-    steps: u32,     // height samples or nodes visited, a leaf counts one
+    steps: u32,     // height samples or nodes visited; a node and the cell in it that is looked at beside it count one
     status: u32,    // HIT, MISS or CAPPED
 }
 

@@ -1,7 +1,7 @@
 // Cone shadows: a light that is a disc, near the cost of a hard shadow.
 //
-//   height   r32float  read  the field; four texels a leaf                                   16 bytes
-//   pyramid  r32float  read  level k: the largest corner under each node of 2^k cells a side  4 bytes a node
+//   height  r32float  read  the field; the four corners of a cell   16 bytes
+//   bounds  r32float  read  the range of heights over a node         4 bytes a node
 //
 // Over a height field a direction is free if and only if it is above the horizon of its azimuth. So the disc is cut into upright
 // slices, and each is as visible as it stands above its own horizon: one number a slice, where `area` needs many rays. A
@@ -24,7 +24,7 @@ const SHADOW_CONE_LEAN: f32 = 0.9;
 
 // The way of the wedge between the disc and the receiver.
 struct ShadowConeWedge {
-    side: vec2i,   // one node along the axis on which its middle is slower
+    side: vec2i,   // 1 on the axis on which its middle is slower
     spread: f32,   // lattice distance along that axis from its middle to its edge, while t grows by 1
     ahead: f32,    // share of t by which its edge may be ahead of its middle
 }
@@ -70,6 +70,8 @@ fn shadow_cone_share(inner: f32, outer: f32, a: f32) -> f32 {
 fn shadow(ray: Ray) -> f32 {
     let start = load_surface(ray_at(ray, 0.0)) + TRAVERSAL_LIFT;
     let disc = shadow_cone_disc(ray);
+    // Nothing is above this.
+    let room = traversal_highest(traversal_way(ray.lattice, disc.travel)) - start;
     // Where the disc dips under the reference surface's horizon, only what is above it shines.
     let dips = 1.0 - disc.climb < disc.lowest;
     let horizon = select(-1.0, min((disc.lowest - 1.0) / disc.climb, 1.0), dips);
@@ -78,10 +80,10 @@ fn shadow(ray: Ray) -> f32 {
     let wedge = shadow_cone_wedge(disc);
     let t_near = SHADOW_CONE_NEAR / max(wedge.spread, 1e-20);
     let lowest = shadow_cone_climb(disc, horizon);
-    let close = shadow_cone_horizon(ray, start, disc.travel, 0.0, t_near, lowest, shadow_cone_climb(disc, 1.0));
+    let close = shadow_cone_horizon(ray, start, room, disc.travel, 0.0, t_near, lowest, shadow_cone_climb(disc, 1.0));
     var begin = 0.0;
     if close <= lowest {
-        begin = shadow_cone_search(ray, start, disc.travel, wedge, t_near, lowest);
+        begin = shadow_cone_search(ray, start, room, disc.travel, wedge, t_near, lowest);
         if begin == TRAVERSAL_NEVER && !dips {
             return 1.0;
         }
@@ -99,7 +101,7 @@ fn shadow(ray: Ray) -> f32 {
         let from_t = select(begin, max(begin, t_near), is_middle);
         let lowest_climb = max(shadow_cone_climb(disc, foot), select(0.0, close, is_middle));
         let climb = shadow_cone_horizon(
-            ray, start, disc.travel + b * disc.across, from_t, TRAVERSAL_NEVER, lowest_climb, shadow_cone_climb(disc, head),
+            ray, start, room, disc.travel + b * disc.across, from_t, TRAVERSAL_NEVER, lowest_climb, shadow_cone_climb(disc, head),
         );
         let share = shadow_cone_share(inner, outer, clamp(shadow_cone_point(disc, climb), max(horizon, -1.0), 1.0));
         seen += select(1.0, 2.0, slice == 0) * share;
@@ -116,54 +118,38 @@ fn shadow_cone_wedge(disc: LightDisc) -> ShadowConeWedge {
 
 // The horizon of a slice between two t: `foot` raised by all that stands in the way, to no more than `top`. All three are climbs in
 // units of the centre's.
-fn shadow_cone_horizon(ray: Ray, start: f32, slice_travel: vec2f, t_begin: f32, t_stop: f32, foot: f32, top: f32) -> f32 {
-    let highest = traversal_highest();
+fn shadow_cone_horizon(ray: Ray, start: f32, room: f32, travel: vec2f, t_begin: f32, t_stop: f32, foot: f32, top: f32) -> f32 {
     var climb = foot;
-    var t_end = min((highest - start) / climb, t_stop);
+    var t_end = min(room / climb, t_stop);
     if t_begin >= t_end || climb >= top {
         return climb;
     }
-    let still = abs(slice_travel) < vec2f(TRAVERSAL_STILL);
-    let travel = select(slice_travel, vec2f(0.0), still);
-    let per_travel = 1.0 / select(slice_travel, vec2f(TRAVERSAL_STILL), still);
-    let way = traversal_way(travel);
-    let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
-    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
-    let place = traversal_place(ray, way, ray.lattice + t_begin * travel, level);
-    var found = TraversalSearch(place, t_begin, t_begin, t_begin, vec2<bool>(false), 0u, false, false);
-    while found.t < t_end {
-        let climbing = Ray(ray.lattice, slice_travel, start, climb, ray.cell, t_end, MISS);
-        found = traversal_search(climbing, way, per_travel, t_end, 0, found);
-        if !found.arrived {
-            // Nothing stands in the way; or it gave up, and counts as dark.
-            return select(top, climb, found.ended);
-        }
-        climb = max(climb, shadow_cone_leaf(ray, travel, way, found.place, start, found.t_under, found.t_out));
+    let way = traversal_way(ray.lattice, travel);
+    var at = traversal_start(way, ray.cell, t_begin, t_end);
+    var steps = 0u;
+    while !at.ended && steps < view.step_cap {
+        steps += 1u;
+        at = traversal_cross(way, climb, t_end, at);
+        climb = select(climb, max(climb, shadow_cone_leaf(ray, travel, way, at, start)), at.near);
         if climb >= top {
             return top;
         }
-        t_end = min((highest - start) / climb, t_stop);
-        found.t = found.t_out;
-        found.place = traversal_across(way, found.place, found.place.cell, found.crosses);
+        t_end = min(room / climb, t_stop);
+        at = traversal_onward(way, start, climb, t_end, at);
     }
-    return climb;
+    // One that gave up counts as dark.
+    return select(top, climb, at.ended);
 }
 
 // From which t on something may stand up into the wedge, looking from t_begin on; TRAVERSAL_NEVER where nothing does.
 //
 // Its nodes are as wide as half the wedge or wider, and seen with their neighbours. Beside its middle a ray of the wedge may be over
 // the same place at a smaller t, and so lower.
-fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowConeWedge, t_begin: f32, climb: f32) -> f32 {
+fn shadow_cone_search(ray: Ray, start: f32, room: f32, travel: vec2f, wedge: ShadowConeWedge, t_begin: f32, climb: f32) -> f32 {
+    let way = traversal_way(ray.lattice, travel);
     let behind = max(1.0 - wedge.ahead, 0.1);
-    let t_end = (traversal_highest() - start) / (climb * behind);
-    let still = abs(middle_travel) < vec2f(TRAVERSAL_STILL);
-    let travel = select(middle_travel, vec2f(0.0), still);
-    let per_travel = 1.0 / select(middle_travel, vec2f(TRAVERSAL_STILL), still);
-    let way = traversal_way(travel);
-    let extent = max(abs(travel.x), abs(travel.y)) * (t_end - t_begin);
-    let level = clamp(i32(floor(log2(max(extent, 1.0)))) - 1, 0, way.top);
-    let axis = vec2f(wedge.side);
-    var place = traversal_place(ray, way, ray.lattice + t_begin * travel, level);
+    let t_end = room / (climb * behind);
+    var place = traversal_start(way, ray.cell, t_begin, t_end).place;
     var t = t_begin;
     var steps = 0u;
     while t < t_end {
@@ -171,10 +157,9 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
         if steps > view.step_cap {
             return t;
         }
-        let node = traversal_node(way, place, place.level);
-        let t_border = traversal_borders(ray, way, place, node, per_travel);
+        let last = traversal_last(way, place);
+        let t_border = traversal_borders(way, place.tile, last);
         let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
-        let crosses = vec2<bool>(t_border.x <= t_border.y, t_border.x > t_border.y);
 
         // A side ray is over the same place along the major axis at up to t / behind.
         let width = wedge.spread * t_out / behind;
@@ -184,46 +169,51 @@ fn shadow_cone_search(ray: Ray, start: f32, middle_travel: vec2f, wedge: ShadowC
             continue;
         }
         // The nodes that the wedge reaches into from this one.
-        let last_node = traversal_nodes(way, place.level) - 1;
-        let scale = vec2u(u32(place.level));
-        let first = node << scale;
-        let end = select((node + 1) << scale, way.cells, node == last_node);
-        let origin = dot(axis, ray.lattice - vec2f(place.tile));
-        let enter = origin + t * dot(axis, travel);
-        let leave = origin + t_out * dot(axis, travel);
-        let below = select(vec2i(0), wedge.side, min(enter, leave) - width < dot(axis, vec2f(first)));
-        let above = select(vec2i(0), wedge.side, max(enter, leave) + width > dot(axis, vec2f(end)));
+        let first = (last >> vec2u(u32(place.level))) << vec2u(u32(place.level));
+        let axis = vec2f(wedge.side);
+        let origin = dot(axis, way.origin - vec2f(place.tile - 1));
+        let least = origin + t * dot(axis, way.travel) - width;
+        let most = origin + t_out * dot(axis, way.travel) + width;
+        let below = select(place.cell, first - 1, wedge.side * vec2i(i32(least < dot(axis, vec2f(first)))) != vec2i(0));
+        let above = select(place.cell, last + 1, wedge.side * vec2i(i32(most > dot(axis, vec2f(last + 1)))) != vec2i(0));
         let bound = max(
-            textureLoad(pyramid, max(node, vec2i(0)), place.level).r,
-            max(
-                textureLoad(pyramid, shadow_cone_beside(way, max(node, vec2i(0)) - below, last_node), place.level).r,
-                textureLoad(pyramid, shadow_cone_beside(way, max(node, vec2i(0)) + above, last_node), place.level).r,
-            ),
+            traversal_range(way, place).high,
+            max(shadow_cone_beside(way, place, below), shadow_cone_beside(way, place, above)),
         ) + TRAVERSAL_SLACK;
         let rises = start + climb * behind * t <= bound;
-        if rises && (place.level == 0 || size <= 2.0 * width) {
+        if rises && (place.level == 1 || size <= 2.0 * width) {
             return max(behind * t, t_begin);
         }
         t = select(t_out, t, rises);
-        place = traversal_onward(way, place, node, ray.lattice + t * travel, rises, crosses, 0);
+        let there = traversal_cell(way, place.tile, t, place.cell, last);
+        let by_u = t_border.x <= t_border.y;
+        if rises {
+            place = TraversalPlace(there, place.tile, max(place.level - TRAVERSAL_STRIDE, 1));
+        } else {
+            place = traversal_across(way, place, there, last, vec2<bool>(by_u, !by_u));
+        }
     }
     return TRAVERSAL_NEVER;
 }
 
-// A node, or what lies there where the field ends.
-fn shadow_cone_beside(way: TraversalWay, node: vec2i, last_node: vec2i) -> vec2i {
-    let inside = clamp(node, vec2i(0), last_node);
-    let wrapped = select(select(node, last_node, node < vec2i(0)), vec2i(0), node > last_node);
-    return select(inside, wrapped, vec2<bool>(way.wraps));
+// The bound of a node beside the place's, or of what lies there where the field ends.
+fn shadow_cone_beside(way: TraversalWay, place: TraversalPlace, cell: vec2i) -> f32 {
+    let wraps = view.wrap != 0u;
+    let begin = way.end - way.cells + select(vec2i(0), vec2i(1), wraps);
+    let over = select(select(vec2i(0), -way.cells, cell > way.end), way.cells, cell < begin);
+    let inside = select(clamp(cell, begin, way.end), cell + over, wraps);
+    return traversal_range(way, TraversalPlace(inside, place.tile, place.level)).high;
 }
 
 // How fast a ray must climb from the start to clear the surface in a cell, from t_in to t_out.
-fn shadow_cone_leaf(ray: Ray, travel: vec2f, way: TraversalWay, place: TraversalPlace, start: f32, t_in: f32, t_out: f32) -> f32 {
-    let z = traversal_corners(way, place);
+fn shadow_cone_leaf(ray: Ray, travel: vec2f, way: TraversalWay, at: TraversalAt, start: f32) -> f32 {
+    let t_in = at.t;
+    let t_out = at.t_cell;
+    let z = traversal_corners(way, at);
     let along_u = z.y - z.x;
     let along_v = z.z - z.x;
     let twist = z.x - z.y - z.z + z.w;
-    let origin = ray.lattice - vec2f(place.cell + place.tile);
+    let origin = ray.lattice - vec2f((at.place.cell + (at.place.tile - 1)) ^ way.flip);
     let enter = clamp(origin + t_in * travel, vec2f(0.0), vec2f(1.0));
     let leave = clamp(origin + t_out * travel, vec2f(0.0), vec2f(1.0));
     // The surface is start + c + b s + a s² for s from 0 to 1, and what is needed (c + b s + a s²) / (t_in + length s).

@@ -4,6 +4,6 @@
 
 // Texels between the point that the technique found and the point where the surface is.
 fn truth_error(ray: Ray, hit: Hit) -> f32 {
-    let exact = traversal(ray, traversal_begin(ray));
+    let exact = traversal(ray);
     return length(world_of(hit.lattice, hit.height) - world_of(exact.lattice, exact.height)) / view.texel_metres;
 }

@@ -3,6 +3,7 @@
 //! The order of the passes and how far each looks beyond what changed stand here once, for the field that lives and for those that
 //! stay as they are.
 
+use super::bounds::{BoundsPass, BoundsSet};
 use super::normal_mips::{NormalMips, NormalMipsSet};
 use super::normals::{Normals, NormalsSet};
 use super::pyramid::{Pyramid, PyramidSet};
@@ -15,6 +16,7 @@ pub struct Derive {
     normals: Normals,
     normal_mips: NormalMips,
     pyramid: Pyramid,
+    bounds: BoundsPass,
 }
 
 /// The bindings of one field.
@@ -22,6 +24,7 @@ pub struct DeriveSet {
     normals: NormalsSet,
     normal_mips: NormalMipsSet,
     pyramid: PyramidSet,
+    bounds: BoundsSet,
     size: [u32; 2],
     addressing: Addressing,
 }
@@ -42,7 +45,12 @@ impl Derive {
     ///
     /// A shader does not compile.
     pub fn new(gpu: &Gpu) -> Result<Self, ShaderError> {
-        Ok(Self { normals: Normals::new(gpu)?, normal_mips: NormalMips::new(gpu)?, pyramid: Pyramid::new(gpu)? })
+        Ok(Self {
+            normals: Normals::new(gpu)?,
+            normal_mips: NormalMips::new(gpu)?,
+            pyramid: Pyramid::new(gpu)?,
+            bounds: BoundsPass::new(gpu)?,
+        })
     }
 
     /// Binds a field.
@@ -51,6 +59,7 @@ impl Derive {
             normals: self.normals.bind(gpu, field),
             normal_mips: self.normal_mips.bind(gpu, field),
             pyramid: self.pyramid.bind(gpu, field),
+            bounds: self.bounds.bind(gpu, field),
             size: field.size,
             addressing: field.addressing,
         }
@@ -69,6 +78,8 @@ impl Derive {
             self.normal_mips.record(recorder, &set.normal_mips, &leaning);
         }
         // … and its bounds, which the cells before a texel see.
-        self.pyramid.record(recorder, &set.pyramid, &grown(1, 0));
+        let cells = grown(1, 0);
+        self.pyramid.record(recorder, &set.pyramid, &cells);
+        self.bounds.record(recorder, &set.bounds, &cells);
     }
 }

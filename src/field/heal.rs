@@ -21,6 +21,7 @@ impl Role for Base {
         name: "base",
         format: wgpu::TextureFormat::R32Float,
         mips: false,
+        share: 1.0,
         content: "height, 0 to 1",
         writer: "upload",
         readers: "heal",

@@ -9,10 +9,11 @@
 //! |---|---|---|---|---|---|
 //! | relief | r32float | 4 | base height with every stamp pressed into it, unclamped | stamp, heal | compose |
 //! | material | r32uint | 4 | soot, bare (freshly broken), post, gloss, heat: bits of `material::Marks` | stamp, heal, cool | surface |
-//! | height | r32float | 4 | the height field, 0 to 1 | compose | normals, pyramid, surface |
+//! | height | r32float | 4 | the height field, 0 to 1 | compose | normals, pyramid, bounds, surface |
 //! | normal | rgba16float, mips | 10⅔ | unit normal in field space (u right, v down, out), height; above level 0 their means | normals, normal mips | surface |
 //! | pyramid | r32float, mips | 5⅓ | upper bound of the bilinear surface over a node | pyramid | surface |
-//! | | | | *28 in every field* | | |
+//! | bounds | r32float | 1½ | both ends of the range of the bilinear surface over a node, levels side by side | bounds | surface |
+//! | | | | *29½ in every field* | | |
 //! | noise | r32float | 4 | height of the pattern, 0 to 1 | noise | compose |
 //! | | | | *4 more with noise* | | |
 //! | sequence | r32float | 4 | heights of the images, 0 to 1 | upload | compose |
@@ -37,6 +38,7 @@
 pub mod base;
 pub mod bins;
 pub mod blocks;
+pub mod bounds;
 pub mod compose;
 pub mod cool;
 pub mod derive;
@@ -91,7 +93,7 @@ macro_rules! roles {
             pub enum $role {}
             impl $crate::gpu::Role for $role {
                 const CONTRACT: $crate::gpu::Contract = $crate::gpu::Contract {
-                    name: $name, format: wgpu::TextureFormat::$format, mips: $mips, content: $content, writer: $writer, readers: $readers, usage: $usage,
+                    name: $name, format: wgpu::TextureFormat::$format, mips: $mips, share: 1.0, content: $content, writer: $writer, readers: $readers, usage: $usage,
                 };
             }
         )+
@@ -105,7 +107,7 @@ roles! {
     /// What stamps leave on the material.
     Material = "material", R32Uint, mips false, LAYER, "bits of material::Marks", from "stamp, heal, cool", to "surface";
     /// The height field.
-    Height = "height", R32Float, mips false, LAYER, "height, 0 to 1", from "compose", to "normals, pyramid, surface";
+    Height = "height", R32Float, mips false, LAYER, "height, 0 to 1", from "compose", to "normals, pyramid, bounds, surface";
     /// Its normals and heights, and the means of both over ever larger texels.
     Normal = "normal", Rgba16Float, mips true, LAYER, "normal in field space, height", from "normals, normal mips", to "surface";
     /// Its bounds.
@@ -114,9 +116,33 @@ roles! {
     Cover = "cover", Rgba16Float, mips false, LAYER, "what the albedo takes it for: see the simulation", from "simulation", to "surface";
 }
 
+/// Between which heights it lies over ever larger nodes.
+#[derive(Clone, Copy, Debug)]
+pub enum Bounds {}
+
+impl Role for Bounds {
+    const CONTRACT: Contract = Contract {
+        name: "bounds",
+        format: wgpu::TextureFormat::R32Float,
+        mips: false,
+        // Its levels side by side: see bounds::texture_size.
+        share: 0.375,
+        content: "range of heights over a node",
+        writer: "bounds",
+        readers: "surface",
+        usage: LAYER,
+    };
+}
+
 /// The textures that every field has, each as often as there are of it.
-pub const CONTRACT: &[(Contract, u32)] =
-    &[(Relief::CONTRACT, 1), (Material::CONTRACT, 1), (Height::CONTRACT, 1), (Normal::CONTRACT, 1), (Pyramid::CONTRACT, 1)];
+pub const CONTRACT: &[(Contract, u32)] = &[
+    (Relief::CONTRACT, 1),
+    (Material::CONTRACT, 1),
+    (Height::CONTRACT, 1),
+    (Normal::CONTRACT, 1),
+    (Pyramid::CONTRACT, 1),
+    (Bounds::CONTRACT, 1),
+];
 
 /// What each kind of source adds to them.
 pub const SOURCE_CONTRACTS: &[(&str, &[(Contract, u32)])] = &[
@@ -148,6 +174,8 @@ pub struct Field {
     pub normal: Texture<Normal>,
     /// Its bounds.
     pub pyramid: Texture<Pyramid>,
+    /// The ranges of its heights.
+    pub bounds: Texture<Bounds>,
     /// What a simulation lays over it; 1×1 where none does.
     pub cover: Texture<Cover>,
     /// The picture over it; one white texel where there is none. Outside of the table: its size is its own.
@@ -167,6 +195,7 @@ impl Field {
             height: Texture::new(gpu, size),
             normal: Texture::new(gpu, size),
             pyramid: Texture::new(gpu, size),
+            bounds: Texture::new(gpu, bounds::texture_size(size)),
             cover: Texture::new(gpu, if covered { size } else { [1, 1] }),
             albedo_map: albedo_image::upload(gpu, &ColourImage::white()),
             clipped: gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -185,6 +214,7 @@ impl Field {
             + self.height.memory_bytes()
             + self.normal.memory_bytes()
             + self.pyramid.memory_bytes()
+            + self.bounds.memory_bytes()
             + self.cover.memory_bytes()
             + self.albedo_map.memory_bytes()
             + self.clipped.size()

@@ -13,6 +13,8 @@ pub struct Contract {
     pub format: wgpu::TextureFormat,
     /// Whether it has a full chain of mip levels, of floor sizes.
     pub mips: bool,
+    /// Its own texels for each texel of a large field, mip levels apart.
+    pub share: f64,
     /// What its channels hold, with units.
     pub content: &'static str,
     /// The pass that writes it.
@@ -32,7 +34,7 @@ impl Contract {
 
     /// Bytes a texel of the field, its mip levels included (a full chain adds a third).
     pub fn bytes_per_texel(&self) -> f64 {
-        f64::from(self.texel_bytes()) * if self.mips { 4.0 / 3.0 } else { 1.0 }
+        f64::from(self.texel_bytes()) * self.share * if self.mips { 4.0 / 3.0 } else { 1.0 }
     }
 }
 

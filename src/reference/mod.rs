@@ -4,6 +4,7 @@
 //! ways, to go unnoticed. Heights are f32, as the textures hold them; everything computed from them is f64.
 
 pub mod balls;
+pub mod bounds;
 pub mod compose;
 pub mod cool;
 pub mod gas;

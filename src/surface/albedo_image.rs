@@ -18,6 +18,7 @@ impl Role for AlbedoMap {
         name: "albedo map",
         format: TextureFormat::Rgba8UnormSrgb,
         mips: true,
+        share: 1.0,
         content: "albedo, sRGB; alpha unused",
         writer: "upload",
         readers: "surface",

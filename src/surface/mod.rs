@@ -27,7 +27,7 @@ pub use stage::{Seen, Stage};
 pub use surface::Surface;
 pub use view::{View, ViewSet};
 
-use crate::field;
+use crate::field::{self, bounds};
 use crate::gpu::{Binding, BindingLayout, Gpu};
 use crate::scene::{Background, Scene};
 
@@ -59,6 +59,8 @@ pub struct Choice {
     pub reliefs: bool,
     /// Whether stamps may leave gloss and heat.
     pub marks: bool,
+    /// Whether there may be anything on the material: posts, or what was ever pressed into the relief.
+    pub stamped: bool,
     /// How many lights shine.
     pub lights: u32,
     /// Whether the sky is behind everything, not a studio.
@@ -86,6 +88,7 @@ impl Choice {
             covered: false,
             reliefs: false,
             marks: false,
+            stamped: true,
             lights: 1,
             sky_behind: false,
             views: false,
@@ -155,6 +158,7 @@ pub fn parts(filters_r32float: bool, choice: Choice, entries: &[&str]) -> Vec<St
         "common/material",
         "common/heat",
         "surface/ray",
+        "common/range",
         "common/field",
         sampled,
         "surface/frame",
@@ -178,12 +182,14 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         ("REFLECTS", choice.reflects),
         ("RELIEFS", choice.reliefs),
         ("MARKS", choice.marks),
+        ("STAMPED", choice.stamped),
         ("SKY_BEHIND", choice.sky_behind),
         ("VIEWS", choice.views),
         ("COVERED", choice.covered),
     ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.push(("LIGHTS", f64::from(choice.lights)));
+    constants.extend(range_constants());
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![
             ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
@@ -226,6 +232,11 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
     constants
 }
 
+/// The `override`s of `shaders/common/range.wgsl`.
+pub(crate) fn range_constants() -> [(&'static str, f64); 2] {
+    [("HIGH_STEPS", f64::from(bounds::HIGH_STEPS)), ("LOW_STEPS", f64::from(bounds::LOW_STEPS))]
+}
+
 /// Bind group layout 1 of everything that traces: the field, and what lies over it.
 pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
     BindingLayout::new(
@@ -239,6 +250,7 @@ pub(crate) fn field_layout(gpu: &Gpu) -> BindingLayout {
             Binding::Uint,
             Binding::Float(true),
             Binding::Float(true),
+            Binding::Float(false),
         ],
     )
 }
@@ -254,6 +266,7 @@ pub(crate) fn bind_field(gpu: &Gpu, layout: &BindingLayout, field: &field::Field
             wgpu::BindingResource::TextureView(&field.material.view),
             wgpu::BindingResource::TextureView(&field.albedo_map.view),
             wgpu::BindingResource::TextureView(&field.cover.view),
+            wgpu::BindingResource::TextureView(&field.bounds.view),
         ],
     )
 }

@@ -2,7 +2,7 @@
 //!
 //! The same WGSL functions that the fragment shader runs, for tests against the reference and for the pointer of a mouse.
 
-use super::{Choice, Shadow, Technique, View, ViewSet, bind_field, field_layout, parts, view};
+use super::{Choice, Shadow, Technique, View, ViewSet, bind_field, field_layout, parts, range_constants, view};
 use crate::field::Field;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 
@@ -36,7 +36,7 @@ pub struct Hit {
     pub height: f32,
     /// The ray's parameter there.
     pub t: f32,
-    /// Height samples or nodes visited, a leaf counts one.
+    /// Height samples or nodes visited; a node and the cell in it that is looked at beside it count one.
     pub steps: u32,
     /// [`Hit::HIT`], [`Hit::MISS`] or [`Hit::CAPPED`].
     pub status: u32,
@@ -81,8 +81,9 @@ impl Probe {
         let parts = parts(gpu.filters_r32float(), Choice::tracing(technique, shadow), &["probe"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let groups = [Some(&view_layout), Some(&field_layout), Some(&list_layout)];
-        let kernel =
-            |entry_point| Kernel::new(gpu, "probe", &parts, entry_point, &[("WORKGROUP", f64::from(Self::WORKGROUP))], &groups);
+        let [high, low] = range_constants();
+        let constants = [("WORKGROUP", f64::from(Self::WORKGROUP)), high, low];
+        let kernel = |entry_point| Kernel::new(gpu, "probe", &parts, entry_point, &constants, &groups);
         let (trace, shadow) = (kernel("probe_trace")?, kernel("probe_shadow")?);
         Ok(Self { trace, shadow, view_layout, field_layout, list_layout })
     }

@@ -16,6 +16,7 @@ impl Role for Radiance {
         // Linear, with room for highlights.
         format: wgpu::TextureFormat::Rgba16Float,
         mips: false,
+        share: 1.0,
         content: "radiance, linear",
         writer: "surface",
         readers: "present",

@@ -256,7 +256,7 @@ pub fn light_direction(scene: &Scene, time_seconds: f64) -> glam::DVec3 {
     DirectionalLight::of(&scene.light).direction(time_seconds)
 }
 
-/// Bind group 0: the frame's uniform and its bilinear sampler.
+/// Bind group 0: the frame's uniform, its bilinear sampler and one that does not filter.
 pub struct ViewSet {
     /// The uniform.
     pub uniform: Uniform<View>,
@@ -270,7 +270,7 @@ pub fn layout(gpu: &Gpu) -> BindingLayout {
         gpu,
         "view",
         wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
-        &[Binding::Uniform, Binding::Sampler(true)],
+        &[Binding::Uniform, Binding::Sampler(true), Binding::Sampler(false)],
     )
 }
 
@@ -281,7 +281,7 @@ impl ViewSet {
             Addressing::Wrap => wgpu::AddressMode::Repeat,
             Addressing::Clamp => wgpu::AddressMode::ClampToEdge,
         };
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        let bilinear = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("bilinear"),
             address_mode_u: address_mode,
             address_mode_v: address_mode,
@@ -291,8 +291,15 @@ impl ViewSet {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
+        let nearest = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("nearest"),
+            address_mode_u: address_mode,
+            address_mode_v: address_mode,
+            ..Default::default()
+        });
         let uniform = Uniform::new(gpu, "view");
-        let group = layout.bind(gpu, &[uniform.buffer.as_entire_binding(), wgpu::BindingResource::Sampler(&sampler)]);
+        let [bilinear, nearest] = [&bilinear, &nearest].map(wgpu::BindingResource::Sampler);
+        let group = layout.bind(gpu, &[uniform.buffer.as_entire_binding(), bilinear, nearest]);
         Self { uniform, group }
     }
 }

@@ -1,5 +1,6 @@
 //! How the height field comes to be.
 
+mod bounds;
 mod compose;
 mod cool;
 mod gas;

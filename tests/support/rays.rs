@@ -1,5 +1,6 @@
 //! Lists of rays, and what the GPU and the CPU make of them.
 
+use rilievo::field::bounds::BoundsPass;
 use rilievo::field::pyramid::Pyramid;
 use rilievo::field::{Field, Region};
 use rilievo::gpu::Gpu;
@@ -17,7 +18,12 @@ pub fn upload(gpu: &Gpu, field: &HeightField) -> Field {
     textures.height.write(gpu, &field.heights);
     let pyramid = Pyramid::new(gpu).expect("the shader compiles");
     let set = pyramid.bind(gpu, &textures);
-    run(gpu, |recorder| pyramid.record(recorder, &set, &[Region::all(field.size)]));
+    let bounds = BoundsPass::new(gpu).expect("the shader compiles");
+    let bounds_set = bounds.bind(gpu, &textures);
+    run(gpu, |recorder| {
+        pyramid.record(recorder, &set, &[Region::all(field.size)]);
+        bounds.record(recorder, &bounds_set, &[Region::all(field.size)]);
+    });
     textures
 }
 

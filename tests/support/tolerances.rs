@@ -359,3 +359,7 @@ pub const RELIEF_PENUMBRA: f64 = 0.02;
 
 /// The same at its corners, where the shares behind two borders are multiplied: twice what was measured.
 pub const RELIEF_CORNER: f64 = 0.045;
+
+/// By how much a range of `bounds` may miss the surface, heights: the traversal's `TRAVERSAL_SLACK`. Rounding puts a height within half an
+/// ulp of a step's product onto that step, 3e-8.
+pub const BOUND_SLACK: f64 = 1e-7;
