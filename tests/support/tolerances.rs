@@ -89,6 +89,9 @@ pub const STAMP_VOLUME: f64 = 1e-3;
 /// 4,096 stamps of radius 8 in steps of the wave at 1024²: the project's budget.
 pub const STAMP_BUDGET_STEPS: f64 = 2.0;
 
+/// A substep of shallow water in steps of the wave at 1024²: the project's budget on a software adapter.
+pub const WATER_BUDGET_STEPS: f64 = 6.0;
+
 /// Levels of 255 by which one colour may differ under fields of different sizes: the filter's 8 bits of fraction move the place by a
 /// 256th of a pixel of the image, and two levels are what adapters round differently.
 pub const ALBEDO_IMAGE_LEVELS: u8 = 3;
