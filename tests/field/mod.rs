@@ -2,6 +2,7 @@
 
 mod compose;
 mod cool;
+mod endurance;
 mod gas;
 mod gas_activity;
 mod gas_advect;
