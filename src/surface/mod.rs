@@ -184,6 +184,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
     ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.push(("LIGHTS", f64::from(choice.lights)));
+    constants.extend(field::material::CONSTANTS);
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![
             ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
