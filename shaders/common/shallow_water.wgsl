@@ -1,6 +1,8 @@
 // Shallow water: what its kernels share. Depths and levels are metres, velocities m/s, lengths on the lattice texels.
 
-override SHALLOW_WATER_TILE: u32;      // side of a tile of texels: one workgroup
+override SHALLOW_WATER_TILE: u32;      // side of a workgroup that takes a texel an invocation
+override SHALLOW_WATER_SPAN: u32;      // invocations of a workgroup that takes a substep, and texels of its tile along the first direction
+override SHALLOW_WATER_HALO: u32;      // texels that a tile sees beyond its own: the half step takes one, the slopes of what it gives two
 override SHALLOW_WATER_WALL: u32;      // the borders' numbers
 override SHALLOW_WATER_OPEN: u32;
 override SHALLOW_WATER_SEA: u32;

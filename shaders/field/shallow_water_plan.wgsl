@@ -56,7 +56,11 @@ fn shallow_water_plan() {
     control.rise = spell.swell_metres * sin(spell.swell_phase + spell.swell_rate * (elapsed + 0.5 * dt));
     control.pending = 1u;
     atomicStore(&control.speed, 0u);
-    let grid = vec3u((params.size + SHALLOW_WATER_TILE - 1u) / SHALLOW_WATER_TILE, 1u);
+    // A tile is longer along the substep's first direction.
+    let short = SHALLOW_WATER_SPAN - 2u * SHALLOW_WATER_HALO;
+    let turned = (control.substeps & 1u) == 1u;
+    let tile = select(vec2u(SHALLOW_WATER_SPAN, short), vec2u(short, SHALLOW_WATER_SPAN), turned);
+    let grid = vec3u((params.size + tile - 1u) / tile, 1u);
     grids[0] = select(vec3u(0u), grid, control.current == 0u);
     grids[1] = select(vec3u(0u), grid, control.current == 1u);
 }

@@ -327,8 +327,12 @@ impl ShallowWaterSet {
 }
 
 impl ShallowWater {
-    /// Side of a tile, texels: one workgroup. Its cells and its faces with their halo fill 15.1 of the 16 KiB of a workgroup.
-    pub const TILE: u32 = 13;
+    /// Side of the workgroup of the kernels that take a texel an invocation.
+    const TILE: u32 = 8;
+
+    /// Invocations of a workgroup that takes a substep: lines of a tile with its halo, and texels of it along the first direction. The
+    /// square of it in cells fills the 16 KiB of a workgroup.
+    pub const SPAN: u32 = 32;
 
     /// Texels that a tile sees beyond its own.
     const HALO: u32 = 3;
@@ -345,6 +349,8 @@ impl ShallowWater {
         let layouts = Layouts::new(gpu);
         let shared = [
             ("SHALLOW_WATER_TILE", Self::TILE),
+            ("SHALLOW_WATER_SPAN", Self::SPAN),
+            ("SHALLOW_WATER_HALO", Self::HALO),
             ("SHALLOW_WATER_WALL", Border::Wall as u32),
             ("SHALLOW_WATER_OPEN", Border::Open as u32),
             ("SHALLOW_WATER_SEA", Border::Sea as u32),
@@ -355,9 +361,7 @@ impl ShallowWater {
             let parts = ["common/shallow_water", stem];
             Kernel::new(gpu, "shallow water", &parts, entry_point, &constants, &[None, Some(layout)])
         };
-        let span = Self::TILE + 2 * Self::HALO;
-        let tile =
-            [("SHALLOW_WATER_SPAN", span), ("SHALLOW_WATER_CELLS", span * span), ("SHALLOW_WATER_FACES", span * (span - 1))];
+        let cells = [("SHALLOW_WATER_CELLS", Self::SPAN * Self::SPAN)];
         let lanes = [("SHALLOW_WATER_LANES", Self::LANES)];
         let plan = |entry_point| kernel("field/shallow_water_plan", entry_point, &[], &layouts.plan);
         let disturb = "field/shallow_water_disturb";
@@ -366,7 +370,7 @@ impl ShallowWater {
             disturb: kernel(disturb, "shallow_water_disturb", &lanes, &layouts.disturb)?,
             begin: plan("shallow_water_begin")?,
             plan: plan("shallow_water_plan")?,
-            step: kernel("field/shallow_water", "shallow_water_step", &tile, &layouts.step)?,
+            step: kernel("field/shallow_water", "shallow_water_step", &cells, &layouts.step)?,
             settle: plan("shallow_water_settle")?,
             publish: kernel("field/shallow_water_publish", "shallow_water_publish", &[], &layouts.publish)?,
         };

@@ -182,13 +182,15 @@ impl Water {
         }
     }
 
-    fn sweep(&mut self, axis: usize, dt: f64) {
+    /// One direction. What it makes of thin films' velocities goes to the next one as it is: through a flow they would be desingularised
+    /// once more.
+    fn sweep(&mut self, axis: usize, velocity: &mut [[f64; 2]], dt: f64) {
         let ratio = dt / self.texel_metres;
         let [width, height] = self.size;
         let (length, lines, stride, line_stride) = if axis == 0 { (width, height, 1, width) } else { (height, width, width, 1) };
         for number in 0..lines {
             let index = |at: usize| number * line_stride + at * stride;
-            let line = self.line(axis, &index, length);
+            let line = self.line(axis, velocity, &index, length);
             let is_closed = |face: usize| {
                 let border = if face == 0 {
                     Some(0)
@@ -220,8 +222,7 @@ impl Water {
             for at in 0..length {
                 let cell = self.moved(&line[at + 3], &faces[at], &faces[at + 1], ratio);
                 self.depth[index(at)] = cell.depth;
-                let flow = [cell.along * cell.depth, cell.across * cell.depth];
-                self.flow[index(at)] = if axis == 0 { flow } else { [flow[1], flow[0]] };
+                velocity[index(at)] = if axis == 0 { [cell.along, cell.across] } else { [cell.across, cell.along] };
                 self.foam[index(at)] = cell.foam;
             }
             self.speed = faces.iter().fold(self.speed, |speed, face| speed.max(face.speed));
@@ -229,7 +230,7 @@ impl Water {
     }
 
     /// A line along an axis, with three cells beyond each border.
-    fn line(&self, axis: usize, index: &dyn Fn(usize) -> usize, length: usize) -> Vec<Cell> {
+    fn line(&self, axis: usize, velocity: &[[f64; 2]], index: &dyn Fn(usize) -> usize, length: usize) -> Vec<Cell> {
         let n = length as i64;
         (-3..n + 3)
             .map(|at| {
@@ -247,11 +248,10 @@ impl Water {
                     }
                 };
                 let i = index(source as usize);
-                let velocity = |of: usize| self.rules.velocity(self.flow[i][of], self.depth[i]);
                 let mut cell = Cell {
                     depth: self.depth[i],
-                    along: velocity(axis),
-                    across: velocity(1 - axis),
+                    along: velocity[i][axis],
+                    across: velocity[i][1 - axis],
                     foam: self.foam[i],
                     bed: self.bed[i],
                 };
@@ -281,8 +281,13 @@ impl Water {
         let before = self.depth.clone();
         self.speed = 0.0;
         let first = (self.steps % 2) as usize;
-        self.sweep(first, dt);
-        self.sweep(1 - first, dt);
+        let mut velocity: Vec<_> =
+            self.flow.iter().zip(&self.depth).map(|(flow, depth)| flow.map(|flow| self.rules.velocity(flow, *depth))).collect();
+        self.sweep(first, &mut velocity, dt);
+        self.sweep(1 - first, &mut velocity, dt);
+        for ((flow, depth), velocity) in self.flow.iter_mut().zip(&self.depth).zip(velocity) {
+            *flow = velocity.map(|velocity| velocity * depth);
+        }
         for (i, depth) in before.into_iter().enumerate() {
             self.settle(i, depth, dt);
         }

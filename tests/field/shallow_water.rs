@@ -1,15 +1,17 @@
 //! Shallow water: its shader against its reference, and both against what is known in closed form.
 
 use std::f64::consts::TAU;
+use std::time::Instant;
 
 use rilievo::field::Cover;
 use rilievo::field::shallow_water::{
     Event, ShallowWater, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSet, ShallowWaterSpell,
     events_in_step,
 };
+use rilievo::field::wave::Waves;
 use rilievo::gpu::{Gpu, Readback, Texture};
 use rilievo::reference::shallow_water::{Rules, Water};
-use rilievo::scene::{self, Border};
+use rilievo::scene::{self, Border, Boundary};
 use rilievo::stroke::{Lattice, Random, Stream};
 
 use super::normals::from_half;
@@ -298,14 +300,10 @@ fn a_seiche_keeps_its_time() {
     }
 }
 
-/// A hilly bed with dry hills and water that sloshes in it; without a seam where it repeats.
-fn rough(basin: &mut Basin, level: f64, repeats: bool) {
+/// A hilly bed with dry hills and water that sloshes in it; where it repeats, it has a cliff.
+fn rough(basin: &mut Basin, level: f64) {
     let [width, height] = basin.params.size.map(|side| f64::from(side) * f64::from(basin.params.texel_metres));
-    // Angles across the field, of waves that need not end where they began, or must.
-    let angle = move |[x, y]: [f64; 2], [u, v]: [f64; 2]| {
-        let [u, v] = if repeats { [u, v].map(|turns| (turns / TAU).ceil() * TAU) } else { [u, v] };
-        u * x / width + v * y / height
-    };
+    let angle = move |[x, y]: [f64; 2], [u, v]: [f64; 2]| u * x / width + v * y / height;
     let hills =
         move |at| 0.5 + 0.4 * angle(at, [7.0, 0.0]).sin() * angle(at, [0.0, 5.0]).cos() + 0.2 * angle(at, [11.0, 3.0]).sin();
     basin.put_bed(hills);
@@ -323,7 +321,7 @@ fn equals_the_reference_at_odd_sizes_with_every_border() {
             (settings.friction, settings.rain, settings.seepage) = (0.01, 0.002, 0.001);
             settings.sea_metres = 0.6;
             let Some(mut basin) = Basin::new(settings) else { return };
-            rough(&mut basin, 0.6, border == Border::Periodic);
+            rough(&mut basin, 0.6);
             let mut expected = basin.reference();
             // Half of what is stable, so that neither side divides a step.
             let seconds = f64::from((0.2 * 0.1 / expected.speed.max(1.0)) as f32);
@@ -334,24 +332,59 @@ fn equals_the_reference_at_odd_sizes_with_every_border() {
             basin.run(steps, seconds);
             assert_eq!(basin.control().substeps, steps, "{border:?}, {size:?}");
             let states = basin.states();
-            let mut decided = 0;
+            let mut worst = 0.0_f64;
             for (index, state) in states.iter().enumerate() {
                 let [depth, foam] = [state[0] - expected.depth[index], (state[3] - expected.foam[index]) * state[0]];
                 let flow = (state[1] - expected.flow[index][0]).hypot(state[2] - expected.flow[index][1]);
                 let off = depth.abs().max(flow.abs()).max(foam.abs());
-                assert!(off <= WATER_STEPS_DECIDED, "{border:?}, {size:?}, texel {index}: {off:.2e}, {state:?}");
-                decided += usize::from(off > WATER_STEPS);
+                assert!(off <= WATER_STEPS, "{border:?}, {size:?}, texel {index}: {off:.2e}, {state:?}");
+                worst = worst.max(off);
             }
-            println!("{border:?}, {size:?}: {decided} of {} decided otherwise", states.len());
-            assert!(decided as f64 <= WATER_DECIDED_SHARE * states.len() as f64, "{border:?}, {size:?}: {decided} texels");
+            println!("{border:?}, {size:?}: {worst:.1e}");
         }
     }
 }
 
 #[test]
+fn a_substep_costs_at_most_six_steps_of_the_wave() {
+    let size = [1024, 1024];
+    let Some(mut basin) = Basin::new(params(size, 0.1, Border::Wall)) else { return };
+    let waves = Waves::new(basin.gpu).expect("the shader compiles");
+    let wave = scene::Wave { boundary: Boundary::Periodic, ..scene::Wave::default() };
+    let mut pool = waves.bind(basin.gpu, size, &wave, [1.0, 1.0]);
+    rough(&mut basin, 0.7);
+    basin.cap(2);
+    // More than two substeps can cover, so that each run takes both.
+    let seconds = 1.0;
+    let mut in_steps = || {
+        let mut ratios: Vec<_> = (0..9)
+            .map(|_| {
+                // Each alone from its recording to its end; in turn, so that both see the same machine.
+                let start = Instant::now();
+                let moved = run(basin.gpu, |recorder| waves.record(recorder, &mut pool, 8, &[]));
+                assert_eq!(moved, Ok(true));
+                let step = start.elapsed().as_secs_f64() / 8.0;
+                let before = basin.control().substeps;
+                let start = Instant::now();
+                basin.run(1, seconds);
+                let both = start.elapsed().as_secs_f64();
+                assert_eq!(basin.control().substeps, before + 2);
+                0.5 * both / step
+            })
+            .collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios[4]
+    };
+    // The other tests run beside this one and disturb it; one quiet spell is enough.
+    let ratio = (0..5).map(|_| in_steps()).find(|ratio| *ratio <= WATER_BUDGET_STEPS);
+    println!("a substep of shallow water over a rough bed, 1024²: {ratio:.2?} wave steps");
+    assert!(ratio.is_some(), "a substep cost more than {WATER_BUDGET_STEPS} wave steps, five times over");
+}
+
+#[test]
 fn walls_keep_the_mass() {
     let Some(mut basin) = Basin::new(params([100, 70], 0.1, Border::Wall)) else { return };
-    rough(&mut basin, 0.7, false);
+    rough(&mut basin, 0.7);
     basin.cap(4);
     let before = basin.mass();
     for _ in 0..20 {
@@ -369,7 +402,7 @@ fn rain_and_seepage_are_what_falls_and_what_is_taken() {
     let mut settings = params([40, 30], 0.1, Border::Wall);
     settings.rain = 0.01;
     let Some(mut basin) = Basin::new(settings) else { return };
-    rough(&mut basin, 0.4, false);
+    rough(&mut basin, 0.4);
     let before = basin.mass();
     basin.run(100, 0.01);
     let rained = (basin.mass() - before) / (40.0 * 30.0);
@@ -393,7 +426,7 @@ fn a_dent_and_its_ring_have_no_net() {
             ([5.0, 5.0], 4.0, -9.0),
         ] {
             let Some(mut basin) = Basin::new(params([100, 70], 0.1, border)) else { return };
-            rough(&mut basin, level, false);
+            rough(&mut basin, level);
             let before = basin.states();
             basin.run_with(0, 0.0, &[(0, Event::dent(centre, radius, 0.5, 1.0))]);
             let after = basin.states();
@@ -634,7 +667,7 @@ fn a_bed_that_is_no_number_is_a_wall() {
 fn what_is_no_number_stops_the_water_at_its_last_good_state() {
     for poison in [[f64::from(f32::MAX), 0.0], [f64::NAN, 0.0], [1.0, f64::INFINITY]] {
         let Some(mut basin) = Basin::new(params([40, 40], 0.1, Border::Wall)) else { return };
-        rough(&mut basin, 0.7, false);
+        rough(&mut basin, 0.7);
         basin.run(3, 0.01);
         let mut states = basin.states();
         let control = basin.control();
@@ -661,7 +694,7 @@ fn what_is_no_number_stops_the_water_at_its_last_good_state() {
 #[test]
 fn falling_behind_is_counted_and_costs_nothing_else() {
     let Some(mut basin) = Basin::new(params([64, 64], 0.01, Border::Wall)) else { return };
-    rough(&mut basin, 0.7, false);
+    rough(&mut basin, 0.7);
     basin.set.set_params(basin.gpu, &basin.params, 2);
     // 0.1 s would take some 60 substeps.
     basin.run(5, 0.1);
@@ -680,7 +713,7 @@ fn falling_behind_is_counted_and_costs_nothing_else() {
 fn steps_cut_into_frames_are_the_same_to_the_bit() {
     let run = |frames: &[u32]| -> Option<Vec<State>> {
         let mut basin = Basin::new(params([50, 40], 0.05, Border::Wall))?;
-        rough(&mut basin, 0.6, false);
+        rough(&mut basin, 0.6);
         frames.iter().for_each(|steps| basin.run(*steps, 1.0 / 120.0));
         Some(basin.states())
     };

@@ -93,6 +93,9 @@ pub const STAMP_VOLUME: f64 = 1e-3;
 /// 4,096 stamps of radius 8 in steps of the wave at 1024²: the project's budget.
 pub const STAMP_BUDGET_STEPS: f64 = 2.0;
 
+/// A substep of shallow water in steps of the wave at 1024²: the project's budget on a software adapter.
+pub const WATER_BUDGET_STEPS: f64 = 6.0;
+
 /// Levels of 255 by which one colour may differ under fields of different sizes: the filter's 8 bits of fraction move the place by a
 /// 256th of a pixel of the image, and two levels are what adapters round differently.
 pub const ALBEDO_IMAGE_LEVELS: u8 = 3;
@@ -341,15 +344,9 @@ pub const WATER_CAP: f64 = 5e-7;
 pub const WATER_NET: f64 = 1e-5;
 
 /// Water against its f64 reference after a few steps, in depths: a thin film's velocity is a quotient of small numbers, and limiters
-/// have corners, where rounding decides between two slopes.
-pub const WATER_STEPS: f64 = 2e-5;
+/// have corners, where rounding decides between two slopes. Measured: 2.1e-6.
+pub const WATER_STEPS: f64 = 5e-6;
 
-/// The same where, so it is read, rounding decides whether water at a sill passes it, which changes the flux of that one face: 9e-5 was
-/// measured, of the two cells beside it, from one step to the next.
-pub const WATER_STEPS_DECIDED: f64 = 2e-4;
-
-/// Share of texels that such a decision may reach. Measured: 2.4 % of 256.
-pub const WATER_DECIDED_SHARE: f64 = 0.03;
 /// Procedural heights against their f64 reference: a place on a lattice of some 30 cells is rounded to 2⁻²⁴ of that, an octave rises
 /// by up to 3 a cell, an edge a hundredth of the field wide by 1.5 in that. Twice what was measured of any pattern.
 pub const NOISE_HEIGHT: f64 = 5e-5;
