@@ -99,13 +99,13 @@ fn endure_water(gpu: &Gpu, kernels: &ShallowWater, extreme: &Extreme, substeps: 
     let keeps =
         closed && water.springs.is_empty() && water.rain_metres_per_second == 0.0 && water.seepage_metres_per_second == 0.0;
     loop {
-        // A quarter of them at a time.
+        // Some of them at a time; a step may be several substeps.
         let steps = if first_mass.is_none() {
             1
         } else if happened > EVENTS / 8 {
             8
         } else {
-            u64::from(substeps.div_ceil(4)).min(256)
+            u64::from(substeps.div_ceil(8))
         };
         let spells: Vec<_> = (step..step + steps).map(|step| ShallowWaterSpell::new(water, step)).collect();
         let of_step = |number: u64| events_in_step(water, 7, &lattice, step + number).map(move |event| (number as u32, event));
@@ -155,7 +155,7 @@ fn water_endures_the_ends_of_every_range_and_slider() {
     let base = pond();
     let tables = ["/plane/width_metres", "/plane/depth_metres", "/shallow_water"];
     let all = extremes(&base, &tables, |scene| (scene.shallow_water.clone(), scene.plane.clone()), 200);
-    let share = (SUBSTEPS + SUBSTEPS / 10).div_ceil(all.len() as u32);
+    let share = (SUBSTEPS + SUBSTEPS / 20).div_ceil(all.len() as u32);
     let (mut substeps, mut late, mut failures) = (0, 0, Vec::new());
     for (number, mut extreme) in all.into_iter().enumerate() {
         let scene = &mut extreme.scene;

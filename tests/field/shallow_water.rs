@@ -525,7 +525,7 @@ fn what_covers_the_field_is_depth_foam_and_velocity() {
         let velocity = |flow: f64| if depth > 0.0 { flow / depth } else { 0.0 };
         // The test's bed is in heights: metres of a field that is one metre deep.
         let expected = [depth / 2.0, foam, velocity(along), velocity(across)];
-        let off = cover.map(from_half).into_iter().zip(expected).map(|(a, b)| (f64::from(a) - b).abs()).fold(0.0, f64::max);
+        let off = cover.map(from_half).into_iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off <= WATER_COVER, "{at:?}: {:?} for {expected:?}", cover.map(from_half));
         assert!((f64::from(surface) - (0.1 * at[0] + 0.05 * at[1] + depth / 2.0)).abs() <= 1e-6, "{at:?}: {surface}");
     }
