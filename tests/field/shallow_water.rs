@@ -1,6 +1,5 @@
 //! Shallow water: its shader against its reference, and both against what is known in closed form.
 
-use std::f64::consts::TAU;
 use std::time::Instant;
 
 use rilievo::field::Cover;

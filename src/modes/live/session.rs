@@ -318,12 +318,7 @@ impl Session {
         });
         match made {
             Ok((start, player, frame)) => {
-                if let Some(journal) = self.journal.take() {
-                    match journal.finish() {
-                        Ok(()) => log::info!("the journal ends here: it holds one scene"),
-                        Err(error) => log::error!("{error}"),
-                    }
-                }
+                let journal = self.journal.take().map(journal::Writer::finish);
                 self.halted = None;
                 self.frame = frame;
                 self.player = player;
@@ -337,7 +332,11 @@ impl Session {
                 self.hand = Hand::default();
                 self.undo = 0;
                 let description = self.panel.scene.description.clone();
-                self.panel.say(description);
+                match journal {
+                    None => self.panel.say(description),
+                    Some(Ok(())) => self.panel.say(format!("The journal ends here: it holds one scene. {description}")),
+                    Some(Err(error)) => self.panel.say_error(&format!("The journal is lost: {error}")),
+                }
             }
             Err(error) => self.panel.say_error(&error.to_string()),
         }
