@@ -1,5 +1,6 @@
 //! Shallow water: its shader against its reference, and both against what is known in closed form.
 
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 use rilievo::field::Cover;
