@@ -248,7 +248,7 @@ mod tests {
         refused(|scene, _| scene.field.size = [512, 3], "at least 4 texels along each side");
         refused(|_, gas| gas.viscosity = 1.0, "beyond which it is unstable");
         refused(|_, gas| gas.confinement_per_second = 20.0, "gas.confinement_per_second");
-        refused(|scene, _| scene.plane.width_metres = 1e-6, "with `gas` a cell, here 1.953125e-9 metres wide, must be");
+        refused(|scene, _| scene.plane.width_metres = 1e-6, "with `gas` a cell, here 1.953e-9 metres wide, must be");
         refused(
             |_, gas| gas.emitters = Some(GasEmitters { per_second: 1000.0, lifetime_seconds: 5.0, ..GasEmitters::default() }),
             "1000 particles a second would be 5000 at a time, and 4096 are the most",

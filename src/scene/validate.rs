@@ -163,7 +163,7 @@ pub(super) fn cell_metres(of: &str, side: f64, width: f32) -> Result<(), SceneEr
     if range.contains(side) {
         return Ok(());
     }
-    refuse("plane.width_metres", width, format!("another: with `{of}` a cell, here {side:e} metres wide, must be {range}"))
+    refuse("plane.width_metres", width, format!("another: with `{of}` a cell, here {side:.3e} metres wide, must be {range}"))
 }
 
 pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
