@@ -547,7 +547,7 @@ impl Frame {
     /// Bytes a texel of the field that the textures of its stack take together.
     pub fn field_bytes_per_texel(&self) -> f64 {
         let cover = if stack::covers(&self.scene) { Cover::CONTRACT.bytes_per_texel() } else { 0.0 };
-        field::bytes_per_texel(field::CONTRACT.iter().chain(self.stack.contract())) + cover
+        field::bytes_per_texel(field::CONTRACT) + self.stack.bytes_per_texel() + cover
     }
 
     /// All that the field remembers from frame to frame, by name: its own layers, and each source's.
@@ -603,6 +603,11 @@ impl Frame {
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
         let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES + bounds::TEXEL_BYTES;
         self.stack.traffic_bytes() + self.groundwork.traffic_bytes() + self.traffic.derived_texels * derived
+    }
+
+    /// The same of one source alone, if the scene has one of this name.
+    pub fn source_traffic_bytes(&self, name: &str) -> Option<u64> {
+        self.stack.traffic_bytes_of(name)
     }
 
     /// Bytes that tracing and presenting one picture reads and writes by design, where a view ray takes so many steps.

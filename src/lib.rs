@@ -69,6 +69,7 @@
 //!   SIAM J. Sci. Comput. 25, 2004.
 //! - **\[KP\]** A. Kurganov, G. Petrova, *A Second-Order Well-Balanced Positivity Preserving Central-Upwind Scheme for the
 //!   Saint-Venant System*, Commun. Math. Sci. 5, 2007.
+//! - **\[Pope\]** R. Pope, E. Fry, *Absorption Spectrum (380–700 nm) of Pure Water*, Applied Optics 36, 1997.
 //! - **\[Toro\]** E. F. Toro, *Shock-Capturing Methods for Free-Surface Shallow Flows*, 2001.
 //! - **\[Kennedy\]** A. Kennedy et al., *Boussinesq Modeling of Wave Transformation, Breaking, and Runup*, J. Waterway 126, 2000.
 

@@ -10,10 +10,10 @@
 // Heat is a time and not a brightness: e^(−age) needs no pass to cool, and no frame's length enters it. A moment is a 32nd of the
 // time in which a glow falls to 1/e.
 
-const MATERIAL_MOMENTS: i32 = 1023;
-const MATERIAL_MOMENTS_PER_FALL: f32 = 32.0;
-// A glow of e⁻⁹, an eight-thousandth, is none.
-const MATERIAL_GLOWING_MOMENTS: f32 = 288.0;
+override MATERIAL_MOMENTS: i32;
+override MATERIAL_MOMENTS_PER_FALL: f32;
+// After so many a glow is none.
+override MATERIAL_GLOWING_MOMENTS: f32;
 
 fn material_soot(bits: u32) -> f32 {
     return f32(bits & 0xffu);

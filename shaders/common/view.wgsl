@@ -119,7 +119,9 @@ struct View {
     glow: f32,                   // radiance of what glows fully
     detail: ViewDetail,
     slabs: array<Slab, 8>,
+    water_absorption: vec3f,     // of red, green and blue in a metre of the water that covers the field
     slab_penumbra: f32,          // tangent of half the angle of the light's disc, as slabs see it
+    water_scatter: vec3f,        // what deep water gives back of them
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -71,5 +71,6 @@ fn gas_show(
         }
     }
     textureStore(heights, texel, vec4f(shown.x, 0.0, 0.0, 0.0));
-    textureStore(cover, texel, shown);
+    // A half holds no more.
+    textureStore(cover, texel, clamp(shown, vec4f(-65504.0), vec4f(65504.0)));
 }

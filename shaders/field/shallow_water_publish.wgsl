@@ -30,5 +30,6 @@ fn shallow_water_publish(@builtin(global_invocation_id) id: vec3u) {
     let velocity = shallow_water_velocity(flow, state.x, params.dry_metres, params.speed_cap);
     let depth = state.x / params.depth_metres;
     textureStore(surface, id.xy, vec4f(textureLoad(bed, id.xy, 0).x + depth, 0.0, 0.0, 0.0));
-    textureStore(cover, id.xy, vec4f(depth, state.y, velocity));
+    // A half holds no more.
+    textureStore(cover, id.xy, clamp(vec4f(depth, state.y, velocity), vec4f(-65504.0), vec4f(65504.0)));
 }

@@ -10,11 +10,11 @@ override COVERED: bool = false;
 
 const SHALLOWS_INDEX: f32 = 1.33;
 
-// What the field's depth of clear water leaves of red, green and blue: a model's water, as deep to the eye as the relief is.
-const SHALLOWS_ABSORPTION: vec3f = vec3f(4.6, 1.5, 1.1);
-
-// What deep water scatters back.
-const SHALLOWS_DEEP: vec3f = vec3f(0.012, 0.075, 0.085);
+// What it mirrors, the suns only where their light arrives. What would be reflected into the relief is seen as if by its next slope.
+fn shallows_mirrored(point: SurfacePoint) -> vec3f {
+    let reflected = transparent_reflected(point);
+    return sky(reflected) + point.visibility * sky_suns(reflected);
+}
 
 fn shallows_at(lattice: vec2f) -> vec4f {
     let cell = vec2i(floor(lattice));
@@ -44,23 +44,25 @@ fn covered_matter(point: SurfacePoint) -> Matter {
     ground.height = point.height - cover.x;
     let matter = matter_at(ground);
 
-    let way = cover.x * (1.0 / downward + 1.0 / max(view.light_world.y, 0.35));
-    let left = exp(-SHALLOWS_ABSORPTION * way);
+    // Down with the light and up to the eye.
+    let way = depth * (1.0 / downward + 1.0 / max(view.light_world.y, 0.35));
+    let left = exp(-view.water_absorption * way);
     let soaked = matter.albedo * mix(1.0, 0.52, wet);
     let seen = max(dot(point.normal_world, point.toward_eye), 0.02);
     let mirror = pool * transparent_mirror(SHALLOWS_INDEX, seen);
-    let water = mix(soaked, soaked * left + SHALLOWS_DEEP * (1.0 - left), pool) * (1.0 - mirror);
+    let water = mix(soaked, soaked * left + view.water_scatter * (1.0 - left), pool) * (1.0 - mirror);
 
     // Bubbles of some texels, that thin out to lace before they are gone.
     let bubbles = noise_over(plane_metres(point.lattice), 0.22 / view.texel_metres, 71u);
     let foam = smoothstep(0.95, 1.25, 1.15 * cover.y + bubbles) * wet;
+    // A film shines as what it wets would; a pool is a mirror, in which the suns stand already: no highlight, or they would count twice.
     let shine = max(wet * 0.55, pool);
     return Matter(
         mix(water, vec3f(0.80, 0.84, 0.85), foam),
-        mix(matter.specular, 0.7 * (1.0 - foam), shine),
+        mix(matter.specular, 0.4, wet) * (1.0 - max(pool, foam)),
         mix(matter.shininess, 220.0, shine),
-        mix(matter.glow, transparent_mirrored(point) * mirror, pool) * (1.0 - foam),
-        mix(matter.roughness, 0.08, shine),
+        mix(matter.glow, shallows_mirrored(point) * mirror, pool) * (1.0 - foam),
+        mix(mix(matter.roughness, 0.25, wet), 1.0, pool),
         matter.metallic * (1.0 - wet),
         mix(matter.reflection, 0.0, shine),
     );

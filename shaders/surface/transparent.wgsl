@@ -8,11 +8,16 @@ fn transparent_mirror(index: f32, cosine: f32) -> f32 {
     return head_on + (1.0 - head_on) * pow(1.0 - cosine, 5.0);
 }
 
-// What it mirrors. What would be reflected into the relief is seen as if by its next slope: upward.
-fn transparent_mirrored(point: SurfacePoint) -> vec3f {
-    var reflected = reflect(-point.toward_eye, point.normal_world);
+// Where the view is reflected to. What would go into the relief is seen as if by its next slope: upward.
+fn transparent_reflected(point: SurfacePoint) -> vec3f {
+    let reflected = reflect(-point.toward_eye, point.normal_world);
     let up = frame_normal(point.lattice);
-    reflected += max(-2.0 * dot(reflected, up), 0.0) * up;
+    return reflected + max(-2.0 * dot(reflected, up), 0.0) * up;
+}
+
+// What it mirrors.
+fn transparent_mirrored(point: SurfacePoint) -> vec3f {
+    let reflected = transparent_reflected(point);
     return sky(reflected) + sky_suns(reflected);
 }
 

@@ -24,6 +24,9 @@ pub const HIGH_STEPS: u32 = (1 << 14) - 1;
 /// Steps from 0 to 1 of the lower end, which only says how near a search is: 10 bits.
 pub const LOW_STEPS: u32 = (1 << 10) - 1;
 
+/// The `override`s of `shaders/common/range.wgsl`.
+pub(crate) const CONSTANTS: [(&str, f64); 2] = [("HIGH_STEPS", HIGH_STEPS as f64), ("LOW_STEPS", LOW_STEPS as f64)];
+
 /// How many levels there are, the first being 1: the last has one node.
 pub fn level_count(size: [u32; 2]) -> u32 {
     size[0].max(size[1]).next_power_of_two().trailing_zeros().max(1)
@@ -107,12 +110,8 @@ impl BoundsPass {
                 Binding::Read,
             ],
         );
-        let constants = [
-            ("WORKGROUP_X", f64::from(Self::WORKGROUP[0])),
-            ("WORKGROUP_Y", f64::from(Self::WORKGROUP[1])),
-            ("HIGH_STEPS", f64::from(HIGH_STEPS)),
-            ("LOW_STEPS", f64::from(LOW_STEPS)),
-        ];
+        let [x, y] = Self::WORKGROUP.map(f64::from);
+        let constants = [&[("WORKGROUP_X", x), ("WORKGROUP_Y", y)], &CONSTANTS[..]].concat();
         let parts = ["common/region", "common/range", "field/bounds"];
         let kernel = |entry_point| Kernel::new(gpu, "bounds", &parts, entry_point, &constants, &[None, Some(&layout)]);
         let (cells, nodes) = (kernel("bound_cells")?, kernel("bound_nodes")?);

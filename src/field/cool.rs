@@ -6,7 +6,7 @@
 //! Shader: `shaders/field/cool.wgsl`. Specification: [`crate::reference::cool`].
 
 use super::Field;
-use super::material::{GLOWING_MOMENTS, MOMENTS, MOMENTS_PER_FALL, moment};
+use super::material::{CONSTANTS, GLOWING_MOMENTS, MOMENTS, MOMENTS_PER_FALL, moment};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Recorder, ShaderError, UniformSlots};
 
@@ -66,7 +66,8 @@ impl Cool {
             wgpu::ShaderStages::COMPUTE,
             &[Binding::UniformSlot, Binding::Storage(wgpu::TextureFormat::R32Uint, wgpu::StorageTextureAccess::ReadWrite)],
         );
-        let constants = [("COOL_TILE_X", f64::from(Self::TILE[0])), ("COOL_TILE_Y", f64::from(Self::TILE[1]))];
+        let tile = [("COOL_TILE_X", f64::from(Self::TILE[0])), ("COOL_TILE_Y", f64::from(Self::TILE[1]))];
+        let constants = [&tile[..], &CONSTANTS].concat();
         let kernel = Kernel::new(gpu, "cool", &["common/material", "field/cool"], "cool", &constants, &[None, Some(&layout)])?;
         Ok(Self { kernel, layout })
     }

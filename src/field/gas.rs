@@ -49,6 +49,11 @@ pub const TILE: u32 = 16;
 pub const CELL_BYTES: u64 =
     gas_advect::CELL_BYTES + gas_force::CELL_BYTES + gas_project::CELL_BYTES + gas_show::CELL_BYTES + gas_show::TEXEL_BYTES;
 
+/// The same where a cell covers so many texels along each axis.
+pub const fn step_bytes(coarsening: u32) -> u64 {
+    CELL_BYTES - gas_show::TEXEL_BYTES + gas_show::TEXEL_BYTES * (coarsening * coarsening) as u64
+}
+
 /// What every kernel of the gas is told of its tiles.
 pub(super) fn tile_constants() -> [(&'static str, f64); 1] {
     [("GAS_TILE", f64::from(TILE))]
@@ -532,9 +537,7 @@ impl GasSet {
         let tiles = u64::from(self.buffers.tiles[0] * self.buffers.tiles[1]);
         let active = self.word.active.map_or(tiles, u64::from);
         let cells = self.buffers.grid.count() as u64;
-        let texels = u64::from(self.coarsening * self.coarsening);
-        let of_cell = CELL_BYTES - gas_show::TEXEL_BYTES + gas_show::TEXEL_BYTES * texels;
-        u64::from(steps) * cells * of_cell * active / tiles + self.emit.touched_cells() * gas_emit::CELL_BYTES
+        u64::from(steps) * cells * step_bytes(self.coarsening) * active / tiles + self.emit.touched_cells() * gas_emit::CELL_BYTES
     }
 
     /// Asks the GPU, without waiting, how it went.

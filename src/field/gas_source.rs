@@ -4,7 +4,7 @@ use super::bins::BinError;
 use super::gas::{Buffers, Gas, GasSet, Physics};
 use super::gas_bands::{Bands, turn};
 use super::source::{Health, Heights, Source, SourceInput, State};
-use super::{Dirty, Field, LAYER, roles};
+use super::{Dirty, Field, LAYER, bytes_per_texel, roles};
 use crate::clock::Simulation;
 use crate::gpu::{Contract, Gpu, Recorder, Role as _, ShaderError, Texture};
 use crate::reference::gas::{self as reference, Grid};
@@ -14,10 +14,24 @@ use crate::scene::{self, GasBorder, Layer, LayerBlend, Scene};
 roles! {
     /// What is shown of the gas as heights.
     GasDensity = "gas", R32Float, mips false, LAYER, "density", from "gas", to "compose";
+    /// Its velocities. In buffers.
+    GasVelocity = "gas velocity", Rg32Float, mips false, LAYER, "m/s at the western and northern face of a cell", from "gas", to "gas";
+    /// What it carries. In buffers.
+    GasCarried = "gas carried", Rgba32Float, mips false, LAYER, "leading velocity, density, dye", from "gas", to "gas";
+    /// Its pressure. In a buffer.
+    GasPressure = "gas pressure", R32Float, mips false, LAYER, "p of the projection", from "gas", to "gas";
+    /// What coarser levels of the projection hold. In buffers.
+    GasCoarser = "gas coarser", R32Float, mips false, LAYER, "p, b, q of coarser levels: a third of 12", from "gas", to "gas";
 }
 
-/// The gas's own texture.
-pub const CONTRACT: &[(Contract, u32)] = &[(GasDensity::CONTRACT, 1)];
+/// What it adds to a field where a cell is a texel, each as often as there are of it.
+pub const CONTRACT: &[(Contract, u32)] = &[
+    (GasDensity::CONTRACT, 1),
+    (GasVelocity::CONTRACT, 3),
+    (GasCarried::CONTRACT, 3),
+    (GasPressure::CONTRACT, 1),
+    (GasCoarser::CONTRACT, 1),
+];
 
 /// Cells that the flow may cross in a step: half a tile, so that it never outruns the tiles that it wakes.
 const CELLS_A_STEP: f64 = 8.0;
@@ -148,6 +162,11 @@ impl Source for GasSource {
 
     fn contract(&self) -> &'static [(Contract, u32)] {
         CONTRACT
+    }
+
+    fn bytes_per_texel(&self) -> f64 {
+        let shown = GasDensity::CONTRACT.bytes_per_texel();
+        shown + (bytes_per_texel(CONTRACT) - shown) / f64::from(self.coarsening * self.coarsening)
     }
 
     fn heights(&self) -> Heights<'_> {

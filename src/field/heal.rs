@@ -9,7 +9,7 @@
 
 use super::bins::tile_workgroups;
 use super::stamp::Stamps;
-use super::{Dirty, Field, Region};
+use super::{Dirty, Field, Region, material};
 use crate::gpu::{Binding, BindingLayout, Contract, Gpu, Kernel, List, Recorder, Role, ShaderError, Texture, UniformSlots};
 
 /// The heights that a surface heals to.
@@ -212,7 +212,8 @@ impl Heal {
                 Binding::Read,
             ],
         );
-        let constants = [("HEAL_TILE_X", f64::from(Stamps::TILE[0])), ("HEAL_TILE_Y", f64::from(Stamps::TILE[1]))];
+        let tile = [("HEAL_TILE_X", f64::from(Stamps::TILE[0])), ("HEAL_TILE_Y", f64::from(Stamps::TILE[1]))];
+        let constants = [&tile[..], &material::CONSTANTS].concat();
         let parts = ["common/material", "field/heal"];
         let kernel = Kernel::new(gpu, "heal", &parts, "heal", &constants, &[None, Some(&layout)])?;
         Ok(Self { kernel, layout })

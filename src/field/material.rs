@@ -13,6 +13,13 @@ pub const MOMENTS_PER_FALL: f64 = 32.0;
 /// After how many moments a full glow is none: at e⁻⁹, an eight-thousandth.
 pub const GLOWING_MOMENTS: f64 = 288.0;
 
+/// What every kernel is told that reads or writes materials.
+pub(crate) const CONSTANTS: [(&str, f64); 3] = [
+    ("MATERIAL_MOMENTS", MOMENTS as f64),
+    ("MATERIAL_MOMENTS_PER_FALL", MOMENTS_PER_FALL),
+    ("MATERIAL_GLOWING_MOMENTS", GLOWING_MOMENTS),
+];
+
 /// What stamps left on a texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Marks {

@@ -27,9 +27,13 @@
 //! | wave (two) | r32float | 8 | displacement u at this step and the last, in units of the amplitude | wave | wave, compose |
 //! | | | | *9 more with wave* | | |
 //! | gas | r32float | 4 | density, in units of the amplitude | gas | compose |
-//! | | | | *4 more with gas* | | |
+//! | gas velocity (three) | rg32float | 24 | m/s at the western and northern face of a cell; in buffers | gas | gas |
+//! | gas carried (three) | rgba32float | 48 | leading velocity, density, dye; in buffers | gas | gas |
+//! | gas pressure | r32float | 4 | p of the projection; in a buffer | gas | gas |
+//! | gas coarser | r32float | 4 | p, b, q of coarser levels, a third of 12; in buffers | gas | gas |
+//! | | | | *84 more with gas* | | |
 //!
-//! A gas holds 80 bytes a cell in buffers beside that: see [`gas`].
+//! What a gas holds in buffers it holds for each of its cells; one may cover several texels. See [`gas`].
 //!
 //! A field that a simulation covers for its albedo has a row more: cover, rgba16float, 8 bytes a texel, 1×1 elsewhere. The bound on
 //! a still field, and on one with waves, is 40.

@@ -80,6 +80,11 @@ pub trait Source {
     /// The contract of its textures, each as often as there are of it.
     fn contract(&self) -> &'static [(Contract, u32)];
 
+    /// Bytes a texel of the field that these take.
+    fn bytes_per_texel(&self) -> f64 {
+        super::bytes_per_texel(self.contract())
+    }
+
     /// Its heights.
     fn heights(&self) -> Heights<'_>;
 

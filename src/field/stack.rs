@@ -10,7 +10,7 @@ use super::source::{Health, Source, SourceInput, State};
 use super::wave::WaveSource;
 use super::{Dirty, Field, Region};
 use crate::clock::Tick;
-use crate::gpu::{Contract, Gpu, Recorder, ShaderError};
+use crate::gpu::{Gpu, Recorder, ShaderError};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 
@@ -188,14 +188,19 @@ impl Stack {
         self.sources.iter_mut().map(|source| (source.name(), source.health(gpu))).collect()
     }
 
-    /// The contract of the sources' textures: each as often as there are of it.
-    pub fn contract(&self) -> impl Iterator<Item = &(Contract, u32)> {
-        self.sources.iter().flat_map(|source| source.contract())
+    /// Bytes a texel of the field that the sources take.
+    pub fn bytes_per_texel(&self) -> f64 {
+        self.sources.iter().map(|source| source.bytes_per_texel()).sum()
     }
 
     /// Bytes that the sources and the composition moved in the last frame, by design.
     pub fn traffic_bytes(&self) -> u64 {
         self.composed_bytes + self.sources.iter().map(|source| source.traffic_bytes()).sum::<u64>()
+    }
+
+    /// Bytes that this source alone moved, if there is one of this name.
+    pub fn traffic_bytes_of(&self, name: &str) -> Option<u64> {
+        self.source(name).map(Source::traffic_bytes)
     }
 
     /// Bytes of GPU memory of the sources' textures.

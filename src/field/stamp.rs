@@ -224,6 +224,7 @@ impl Stamps {
                 ("STAMP_PLAIN", f64::from(u8::from(plain))),
                 ("STAMP_FORMS", f64::from(u8::from(forms))),
             ];
+            let constants = [&constants[..], &material::CONSTANTS].concat();
             Kernel::new(gpu, "stamp", &Self::PARTS, "stamp_press", &constants, &[None, Some(&layout)])
         };
         let (plain, round, any) = (kernel(true, false)?, kernel(false, false)?, kernel(false, true)?);

@@ -11,7 +11,7 @@ use super::script::Script;
 use super::statistics::{Spread, Steps};
 use super::{ModeError, check_health, progress, wait_for, wait_for_gpu};
 use crate::cli::{StressOptions, Verbosity};
-use crate::field::shallow_water;
+use crate::field::{gas, shallow_water};
 use crate::frame::Frame;
 use crate::gpu::{Gpu, PassTime, Readback};
 use crate::io::atomic;
@@ -64,6 +64,12 @@ pub struct Report {
     pub clipped_texels: u64,
     /// Bytes a texel that a substep of shallow water moves by design; none where there is none.
     pub water_substep_bytes_per_texel: Option<u64>,
+    /// What the water moved by design in a second of its pass; none without timestamps, too.
+    pub water_gb_per_s: Option<f64>,
+    /// Bytes a cell that a step of gas moves by design, in a tile that moves and emits nothing; none where there is none.
+    pub gas_step_bytes_per_cell: Option<u64>,
+    /// What the gas moved by design in a second of its passes.
+    pub gas_gb_per_s: Option<f64>,
     /// Simulated time that sources gave up because their substeps reached their cap, seconds.
     pub behind_seconds: f64,
 }
@@ -86,6 +92,7 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
     }
     let mut samples = Samples::default();
     let mut bytes = Vec::new();
+    let mut flows = ["shallow-water", "gas"].map(Flow::new);
     let progress = progress::bar(total, &scene.name, verbosity == Verbosity::Quiet);
     let mut steps = Steps::default();
     let mut behind_seconds = 0.0;
@@ -106,8 +113,9 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         behind_seconds = check_health(&gpu, &mut frame)?.iter().map(|(_, seconds)| *seconds).fold(0.0, f64::max);
         let times = frame.timer.finished_frame();
         if number >= WARMUP_FRAMES {
-            samples.add(wall_ms, times.unwrap_or_default());
             bytes.push(frame.field_traffic_bytes() as f64);
+            flows.iter_mut().for_each(|flow| flow.add(&frame, times.as_deref().unwrap_or_default()));
+            samples.add(wall_ms, times.unwrap_or_default());
         }
         if number + 1 == total {
             steps = Steps::of(&read_channels(&gpu, &frame, &pass, &input)?);
@@ -137,6 +145,9 @@ pub fn run(options: &StressOptions, verbosity: Verbosity) -> Result<String, Mode
         gpu_memory_bytes: frame.memory_bytes(),
         clipped_texels: clipped_texels(&gpu, &frame)?,
         water_substep_bytes_per_texel: scene.shallow_water.as_ref().map(|_| shallow_water::TEXEL_BYTES),
+        water_gb_per_s: flows[0].gb_per_s(),
+        gas_step_bytes_per_cell: scene.gas.as_ref().map(|gas| gas::step_bytes(gas.coarsening)),
+        gas_gb_per_s: flows[1].gb_per_s(),
         behind_seconds,
     };
     if let Some(path) = &options.json {
@@ -173,6 +184,32 @@ impl Samples {
         // At least one frame was asked for, so there is a wall time.
         let nothing = Spread { median: 0.0, p95: 0.0, min: 0.0 };
         FrameReport { wall_ms: Spread::of(&self.wall_ms).unwrap_or(nothing), gpu_ms: Spread::of(&self.gpu_ms) }
+    }
+}
+
+/// What a source moved, and how long its passes took.
+struct Flow {
+    source: &'static str,
+    /// What the names of its passes begin with.
+    passes: String,
+    bytes: u64,
+    milliseconds: f64,
+}
+
+impl Flow {
+    fn new(source: &'static str) -> Self {
+        Self { source, passes: source.replace('-', " "), bytes: 0, milliseconds: 0.0 }
+    }
+
+    /// Adds a frame's.
+    fn add(&mut self, frame: &Frame, times: &[PassTime]) {
+        self.bytes += frame.source_traffic_bytes(self.source).unwrap_or_default();
+        let own = times.iter().filter(|time| time.name.starts_with(&self.passes));
+        self.milliseconds += own.filter_map(|time| time.milliseconds).sum::<f64>();
+    }
+
+    fn gb_per_s(&self) -> Option<f64> {
+        (self.milliseconds > 0.0).then(|| self.bytes as f64 / self.milliseconds / 1e6)
     }
 }
 
@@ -226,8 +263,14 @@ fn table(report: &Report) -> String {
     line(format_args!("field                  {:.2} bytes a texel", report.field_bytes_per_texel));
     line(format_args!("GPU memory             {:.1} MB", report.gpu_memory_bytes as f64 / 1e6));
     line(format_args!("clipped texels         {}", report.clipped_texels));
+    let a_second = |flow: Option<f64>| flow.map_or_else(|| "–".to_owned(), |flow| format!("{flow:.2}"));
+    if let Some(bytes) = report.gas_step_bytes_per_cell {
+        let flow = a_second(report.gas_gb_per_s);
+        line(format_args!("gas step               {bytes} bytes a cell by design, {flow} GB/s"));
+    }
     if let Some(bytes) = report.water_substep_bytes_per_texel {
-        line(format_args!("shallow-water substep  {bytes} bytes a texel by design"));
+        let flow = a_second(report.water_gb_per_s);
+        line(format_args!("shallow-water substep  {bytes} bytes a texel by design, {flow} GB/s"));
         line(format_args!("fallen behind          {:.3} s", report.behind_seconds));
     }
     text

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::validate::{Range, number, refuse};
+use super::validate::{Range, cell_metres, number, refuse};
 use super::{Addressing, LayerBlend, Scene, SceneError};
 
 /// An incompressible fluid in two dimensions, whose density is its height.
@@ -134,6 +134,9 @@ pub const GAS_CELLS_MIN: u32 = 4;
 /// ν·dt/dx² up to which viscosity is stable; explicit diffusion in two dimensions grows beyond ¼.
 pub const GAS_VISCOSITY_MAX: f64 = 0.2;
 
+/// Particles that may live at a time: each is dealt out to its tiles in every step, on the CPU.
+pub const GAS_PARTICLES_MAX: f64 = 4096.0;
+
 impl Gas {
     /// Cells along each axis of a field of this size.
     pub fn cells(&self, field: [u32; 2]) -> [u32; 2] {
@@ -168,6 +171,7 @@ pub(super) fn validate(gas: &Gas, scene: &Scene) -> Result<(), SceneError> {
         }
     }
     let (step, cell) = (f64::from(gas.step_seconds), gas.cell_metres(scene.texel_metres()));
+    cell_metres("gas", cell, scene.plane.width_metres)?;
     number("gas.viscosity", gas.viscosity, Range::from_to(0.0, 1e6, "m²/s"))?;
     let share = f64::from(gas.viscosity) * step / (cell * cell);
     if share > GAS_VISCOSITY_MAX {
@@ -204,6 +208,14 @@ fn validate_bands(bands: &GasBands, gas: &Gas) -> Result<(), SceneError> {
 fn validate_emitters(emitters: &GasEmitters) -> Result<(), SceneError> {
     number("gas.emitters.per_second", emitters.per_second, Range::from_to(0.0, 1000.0, "per second"))?;
     number("gas.emitters.lifetime_seconds", emitters.lifetime_seconds, Range::above(0.0, 1000.0, "seconds"))?;
+    let alive = f64::from(emitters.per_second) * f64::from(emitters.lifetime_seconds);
+    if alive > GAS_PARTICLES_MAX {
+        let allowed = format!(
+            "shorter: {} particles a second would be {alive:.0} at a time, and {GAS_PARTICLES_MAX} are the most",
+            emitters.per_second
+        );
+        return refuse("gas.emitters.lifetime_seconds", emitters.lifetime_seconds, allowed);
+    }
     number("gas.emitters.radius_metres", emitters.radius_metres, Range::above(0.0, 1e6, "metres"))?;
     number("gas.emitters.density_per_second", emitters.density_per_second, Range::from_to(-1000.0, 1000.0, "per second"))?;
     number("gas.emitters.push", emitters.push, Range::from_to(0.0, 1e4, "m/s²"))?;
@@ -236,5 +248,10 @@ mod tests {
         refused(|scene, _| scene.field.size = [512, 3], "at least 4 texels along each side");
         refused(|_, gas| gas.viscosity = 1.0, "beyond which it is unstable");
         refused(|_, gas| gas.confinement_per_second = 20.0, "gas.confinement_per_second");
+        refused(|scene, _| scene.plane.width_metres = 1e-6, "with `gas` a cell, here 1.953e-9 metres wide, must be");
+        refused(
+            |_, gas| gas.emitters = Some(GasEmitters { per_second: 1000.0, lifetime_seconds: 5.0, ..GasEmitters::default() }),
+            "1000 particles a second would be 5000 at a time, and 4096 are the most",
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::validate::{Range, number, numbers, refuse};
+use super::validate::{Range, cell_metres, number, numbers, refuse};
 use super::{Addressing, Obstacle, Scene, SceneError, exactly, one};
 
 /// The shallow-water equations over whatever lies beneath: depth and velocity, shores that move, and foam where it breaks.
@@ -44,6 +44,13 @@ pub struct ShallowWater {
     pub foam_per_second: f32,
     /// Seconds until e⁻¹ of the foam is left.
     pub foam_seconds: f32,
+    /// What a metre of it takes of red, green and blue light, 1/m. Pure water takes 0.34, 0.057 and 0.009 (\[Pope\]); what floats in it
+    /// takes more, most of the blue.
+    #[serde(deserialize_with = "exactly")]
+    pub absorption_per_metre: [f32; 3],
+    /// What water that is too deep to see through gives back of them.
+    #[serde(deserialize_with = "exactly")]
+    pub scatter: [f32; 3],
 }
 
 /// What water meets at one border of the field.
@@ -133,10 +140,12 @@ pub struct Plunger {
 /// The most substeps that a step may have.
 pub const SUBSTEPS_MAX: u32 = 64;
 
-/// Gravity, m/s².
-pub const GRAVITY: Range = Range::above(0.0, 100.0, "m/s²");
+/// Gravity, m/s². Less than that of a pebble in space moves nothing, and leaves f32 no room.
+pub const GRAVITY: Range = Range::from_to(1e-6, 100.0, "m/s²");
 /// Manning's n.
 pub const MANNING: Range = Range::from_to(0.0, 1.0, "s/m^⅓");
+/// Depth of a field with water.
+pub const DEPTH: Range = Range::from_to(1e-6, 1e6, "metres with `shallow_water`");
 /// The step that the clock owes.
 pub const STEP_SECONDS: Range = Range::from_to(1e-4, 0.1, "seconds");
 /// Share of a texel a substep. Beyond a half, ripples over a rough bed grow.
@@ -160,6 +169,8 @@ impl ShallowWater {
     /// Checks every value against its range, and the borders against the field.
     pub(super) fn validate(&self, scene: &Scene) -> Result<(), SceneError> {
         let key = |name: &str| format!("shallow_water.{name}");
+        cell_metres("shallow_water", scene.texel_metres(), scene.plane.width_metres)?;
+        number("plane.depth_metres", scene.plane.depth_metres, DEPTH)?;
         number(key("gravity_metres_per_second_squared"), self.gravity_metres_per_second_squared, GRAVITY)?;
         number(key("manning"), self.manning, MANNING)?;
         number(key("step_seconds"), self.step_seconds, STEP_SECONDS)?;
@@ -205,7 +216,9 @@ impl ShallowWater {
             number(key(&format!("obstacles[{i}].top")), post.top, Range::from_to(0.0, 1.0, ""))?;
         }
         number(key("foam_per_second"), self.foam_per_second, FOAM_PER_SECOND)?;
-        number(key("foam_seconds"), self.foam_seconds, FOAM_SECONDS)
+        number(key("foam_seconds"), self.foam_seconds, FOAM_SECONDS)?;
+        numbers(&key("absorption_per_metre"), &self.absorption_per_metre, Range::from_to(0.0, 1e4, "per metre"))?;
+        numbers(&key("scatter"), &self.scatter, Range::from_to(0.0, 1.0, ""))
     }
 
     /// A border has one owner: where the field repeats it is the field, and the water goes round with it.
@@ -253,6 +266,8 @@ impl Default for ShallowWater {
             obstacles: Vec::new(),
             foam_per_second: 6.0,
             foam_seconds: 2.0,
+            absorption_per_metre: [0.42, 0.12, 0.11],
+            scatter: [0.016, 0.062, 0.072],
         }
     }
 }

@@ -156,6 +156,16 @@ pub(super) fn number(key: impl Into<String>, value: impl Into<f64> + ToString + 
     if range.contains(value.into()) { Ok(()) } else { refuse(key, value, range) }
 }
 
+/// Checks that a simulation's cell of this side, metres, leaves room for what is computed of it: squares, quotients and the thousandth
+/// of it that counts as dry are normal numbers of f32 then, with all the ranges of the simulation.
+pub(super) fn cell_metres(of: &str, side: f64, width: f32) -> Result<(), SceneError> {
+    let range = Range::from_to(1e-6, 1e6, "metres");
+    if range.contains(side) {
+        return Ok(());
+    }
+    refuse("plane.width_metres", width, format!("another: with `{of}` a cell, here {side:.3e} metres wide, must be {range}"))
+}
+
 pub(super) fn numbers<T: Into<f64> + ToString + Copy>(key: &str, values: &[T], range: Range) -> Result<(), SceneError> {
     values.iter().enumerate().try_for_each(|(i, &value)| number(format!("{key}[{i}]"), value, range))
 }

@@ -4,8 +4,8 @@
 
 use glam::DVec3;
 
-use super::{Choice, View, ViewSet, bind_field, field_layout, parts, range_constants, view};
-use crate::field::Field;
+use super::{Choice, View, ViewSet, bind_field, field_layout, parts, view};
+use crate::field::{Field, bounds, material};
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 use crate::scene::Addressing;
 
@@ -80,8 +80,7 @@ impl LightProbe {
         let parts = parts(gpu.filters_r32float(), choice, &["light_probe"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let groups = [Some(&view_layout), Some(&field_layout), Some(&list_layout)];
-        let [high, low] = range_constants();
-        let constants = [("WORKGROUP", f64::from(Self::WORKGROUP)), high, low];
+        let constants = [&[("WORKGROUP", f64::from(Self::WORKGROUP))], &material::CONSTANTS[..], &bounds::CONSTANTS].concat();
         let kernel = |entry| Kernel::new(gpu, "light probe", &parts, entry, &constants, &groups);
         let (light, sky) = (kernel("probe_light")?, kernel("probe_sky")?);
         let field = Field::new(gpu, [1, 1], Addressing::Clamp, false);

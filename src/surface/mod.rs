@@ -27,7 +27,7 @@ pub use stage::{Seen, Stage};
 pub use surface::Surface;
 pub use view::{View, ViewSet};
 
-use crate::field::{self, bounds};
+use crate::field;
 use crate::gpu::{Binding, BindingLayout, Gpu};
 use crate::scene::{Background, Scene};
 
@@ -189,7 +189,8 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
     ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.push(("LIGHTS", f64::from(choice.lights)));
-    constants.extend(range_constants());
+    constants.extend(field::material::CONSTANTS);
+    constants.extend(field::bounds::CONSTANTS);
     constants.extend(match choice.albedo {
         Albedo::Brick => vec![
             ("BRICK_LENGTH", f64::from(field::base::BRICK_METRES[0])),
@@ -230,11 +231,6 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
         | Albedo::Water => Vec::new(),
     });
     constants
-}
-
-/// The `override`s of `shaders/common/range.wgsl`.
-pub(crate) fn range_constants() -> [(&'static str, f64); 2] {
-    [("HIGH_STEPS", f64::from(bounds::HIGH_STEPS)), ("LOW_STEPS", f64::from(bounds::LOW_STEPS))]
 }
 
 /// Bind group layout 1 of everything that traces: the field, and what lies over it.

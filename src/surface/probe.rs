@@ -2,8 +2,8 @@
 //!
 //! The same WGSL functions that the fragment shader runs, for tests against the reference and for the pointer of a mouse.
 
-use super::{Choice, Shadow, Technique, View, ViewSet, bind_field, field_layout, parts, range_constants, view};
-use crate::field::Field;
+use super::{Choice, Shadow, Technique, View, ViewSet, bind_field, field_layout, parts, view};
+use crate::field::{Field, bounds, material};
 use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, Readback, ShaderError};
 
 /// A ray in field space. Twin of the WGSL struct in `shaders/surface/ray.wgsl`.
@@ -81,8 +81,7 @@ impl Probe {
         let parts = parts(gpu.filters_r32float(), Choice::tracing(technique, shadow), &["probe"]);
         let parts: Vec<_> = parts.iter().map(String::as_str).collect();
         let groups = [Some(&view_layout), Some(&field_layout), Some(&list_layout)];
-        let [high, low] = range_constants();
-        let constants = [("WORKGROUP", f64::from(Self::WORKGROUP)), high, low];
+        let constants = [&[("WORKGROUP", f64::from(Self::WORKGROUP))], &material::CONSTANTS[..], &bounds::CONSTANTS].concat();
         let kernel = |entry_point| Kernel::new(gpu, "probe", &parts, entry_point, &constants, &groups);
         let (trace, shadow) = (kernel("probe_trace")?, kernel("probe_shadow")?);
         Ok(Self { trace, shadow, view_layout, field_layout, list_layout })

@@ -114,8 +114,10 @@ pub struct View {
     pub detail: ViewDetail,
     pub pad_detail: [u32; 2],
     pub slabs: [Slab; SLABS_MAX],
+    pub water_absorption: [f32; 3],
     pub slab_penumbra: f32,
-    pub pad_slabs: [u32; 3],
+    pub water_scatter: [f32; 3],
+    pub pad_water: u32,
 }
 
 impl View {
@@ -196,6 +198,8 @@ impl View {
             moment: scene.cooling_seconds().map_or(0.0, |cooling_seconds| material::moment(time_seconds, cooling_seconds)),
             glow: scene.explosions.as_ref().map_or(0.0, |explosions| explosions.glow),
             detail: ViewDetail::new(scene),
+            water_absorption: scene.shallow_water.as_ref().map_or([0.0; 3], |water| water.absorption_per_metre),
+            water_scatter: scene.shallow_water.as_ref().map_or([0.0; 3], |water| water.scatter),
             ..Self::default()
         };
         view.over(camera, &target)

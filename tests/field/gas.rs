@@ -2,15 +2,33 @@
 
 use std::f64::consts::TAU;
 
+use rilievo::field::gas::Buffers;
+use rilievo::field::gas_source::GasDensity;
+use rilievo::field::{bytes_per_texel, gas_source};
+use rilievo::gpu::Role as _;
 use rilievo::reference::gas::{Grid, State, kinetic_energy, step};
 use rilievo::reference::gas_emit::Emission;
 use rilievo::reference::gas_force::{Forces, Row};
 
 use crate::support::gas::{SHAPES, Tank, apart, calm, narrowed, stirred};
+use crate::support::gpu::gpu;
 use crate::support::tolerances::*;
 
 fn puff(centre: [f64; 2]) -> Emission {
     Emission { centre, radius: 4.0, mass: [3.0, 1.0], velocity: [0.4, -0.2], spin: 0.05 }
+}
+
+#[test]
+fn holds_what_its_contract_says() {
+    for size in [[512, 256], [640, 480]] {
+        let grid = Grid { size, periodic: [true, false] };
+        let Some(gpu) = gpu() else { return };
+        let held = Buffers::new(gpu, &grid).memory_bytes() as f64 / grid.count() as f64;
+        let density = GasDensity::CONTRACT.bytes_per_texel();
+        let contract = bytes_per_texel(gas_source::CONTRACT) - density;
+        // Tiles, rows and what levels are told, too: a hundredth.
+        assert!((held / contract - 1.0).abs() <= 0.01, "{size:?}: {held} bytes a cell, where the contract says {contract}");
+    }
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod bounds;
 mod compose;
 mod cool;
+mod endurance;
 mod gas;
 mod gas_activity;
 mod gas_advect;

@@ -1,16 +1,20 @@
 //! Shallow water: its shader against its reference, and both against what is known in closed form.
 
+use std::f64::consts::TAU;
 use std::time::Instant;
 
+use rilievo::field::Cover;
 use rilievo::field::shallow_water::{
     Event, ShallowWater, ShallowWaterBody, ShallowWaterControl, ShallowWaterParams, ShallowWaterSet, ShallowWaterSpell,
+    events_in_step,
 };
 use rilievo::field::wave::Waves;
 use rilievo::gpu::{Gpu, Readback, Texture};
 use rilievo::reference::shallow_water::{Rules, Water};
 use rilievo::scene::{self, Border, Boundary};
-use rilievo::stroke::{Random, Stream};
+use rilievo::stroke::{Lattice, Random, Stream};
 
+use super::normals::from_half;
 use crate::support::gpu::{gpu, read, run, wait_for};
 use crate::support::tolerances::*;
 use crate::support::water::{Dam, GRAVITY, Thacker, seiche, seiche_period};
@@ -21,7 +25,7 @@ struct Basin {
     water: ShallowWater,
     set: ShallowWaterSet,
     params: ShallowWaterParams,
-    cover: Texture<rilievo::field::shallow_water::WaterSurface>,
+    cover: Texture<Cover>,
 }
 
 fn params(size: [u32; 2], texel_metres: f64, border: Border) -> ShallowWaterParams {
@@ -46,19 +50,9 @@ impl Basin {
     fn with_bodies(params: ShallowWaterParams, bodies: &[ShallowWaterBody]) -> Option<Self> {
         let gpu = gpu()?;
         let water = ShallowWater::new(gpu).expect("the shader compiles");
-        let cover = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("cover"),
-            size: wgpu::Extent3d { width: params.size[0], height: params.size[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba16Float,
-            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
-        let view = cover.create_view(&wgpu::TextureViewDescriptor::default());
-        let set = water.bind(gpu, &view, &params, 64, bodies);
-        Some(Self { gpu, water, set, params, cover: Texture::new(gpu, [1, 1]) })
+        let cover: Texture<Cover> = Texture::new(gpu, params.size);
+        let set = water.bind(gpu, &cover.view, &params, 64, bodies);
+        Some(Self { gpu, water, set, params, cover })
     }
 
     fn texels(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
@@ -441,6 +435,13 @@ fn a_dent_and_its_ring_have_no_net() {
             assert!(net.abs() <= WATER_NET * moved, "{border:?} at {centre:?}: {net:e} of {moved}");
             assert!(after.iter().all(|state| state[0] >= 0.0), "{border:?} at {centre:?}");
             assert_eq!(moved > 0.1, level > 0.0, "{border:?} at {centre:?}: {moved}");
+            let foamed = |states: &[State]| states.iter().filter(|state| state[3] > 0.75).count();
+            assert_eq!(foamed(&after) > foamed(&before), level > 0.0, "{border:?} at {centre:?}: it foams");
+            // Beyond a border that repeats it falls on the other side.
+            if centre == [0.2, 69.0] {
+                let opposite = [changes[99], changes[200]].map(|change| change != 0.0);
+                assert_eq!(opposite, [border == Border::Periodic; 2], "{border:?} at {centre:?}");
+            }
         }
     }
 }
@@ -480,6 +481,10 @@ fn pours_add_and_take_their_volume() {
     let volume = std::f64::consts::PI / 3.0 * (0.2 * 100.0 + 0.1 * 64.0);
     let added = basin.mass() - before;
     assert!((added / volume - 1.0).abs() < 0.01, "{added} of {volume}");
+    // The next substep must not be too long for what stands there now.
+    let deepest = basin.depths().into_iter().fold(0.0, f64::max);
+    let speed = f64::from(f32::from_bits(basin.control().speed));
+    assert!(deepest > 0.2 && speed >= 2.0 * (GRAVITY * deepest).sqrt(), "{speed} m/s are announced of {deepest} m");
     // A drain takes what there is and no more, and what stays keeps its velocity.
     basin.run_with(0, 0.0, &[(0, Event::pour([30.0, 30.0], 12.0, -5.0))]);
     let states = basin.states();
@@ -501,7 +506,139 @@ fn a_fill_stands_level_over_its_bed() {
     }
     let surface: Vec<f32> = read(basin.gpu, &basin.set.held.surface);
     assert!((surface[0] - 0.6).abs() < 1e-6 && (surface[39] - 0.79).abs() < 1e-6, "{} and {}", surface[0], surface[39]);
-    let _ = &basin.cover;
+    // The first substep, of which no other knows anything yet, must not be too long for it.
+    let speed = f64::from(f32::from_bits(basin.control().speed));
+    assert!(speed >= 2.0 * (GRAVITY * 0.59).sqrt(), "{speed} m/s are announced");
+}
+
+#[test]
+fn what_covers_the_field_is_depth_foam_and_velocity() {
+    let Some(mut basin) = Basin::new(ShallowWaterParams { depth_metres: 2.0, ..params([37, 18], 0.1, Border::Wall) }) else {
+        return;
+    };
+    basin.put_bed(|[x, y]| 0.1 * x + 0.05 * y);
+    basin.put(|[x, y]| [(1.0 - 0.3 * x).max(0.0), 0.5 - 0.2 * x, 0.3 * y, 0.25 * x]);
+    basin.run_with(0, 0.0, &[(0, Event::pour([0.0; 2], 1.0, 0.0))]);
+    let surfaces: Vec<f32> = read(basin.gpu, &basin.set.held.surface);
+    let covers: Vec<[u16; 4]> = read(basin.gpu, &basin.cover);
+    for (((at, [depth, along, across, foam]), surface), cover) in basin.texels().zip(basin.states()).zip(surfaces).zip(covers) {
+        let velocity = |flow: f64| if depth > 0.0 { flow / depth } else { 0.0 };
+        // The test's bed is in heights: metres of a field that is one metre deep.
+        let expected = [depth / 2.0, foam, velocity(along), velocity(across)];
+        let off = cover.map(from_half).into_iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off <= WATER_COVER, "{at:?}: {:?} for {expected:?}", cover.map(from_half));
+        assert!((f64::from(surface) - (0.1 * at[0] + 0.05 * at[1] + depth / 2.0)).abs() <= 1e-6, "{at:?}: {surface}");
+    }
+}
+
+#[test]
+fn a_swell_comes_in_as_its_sea_says_and_as_fast_as_waves_are() {
+    // A channel 20 m long and 1 m deep, whose western end is the sea: after 3 s nothing has come back from the other one.
+    const AMPLITUDE: f64 = 0.001;
+    let mut settings = params([400, 3], 0.05, Border::Wall);
+    settings.borders[0] = Border::Sea as u32;
+    settings.sea_metres = 1.0;
+    let Some(mut basin) = Basin::new(settings) else { return };
+    basin.put_bed(|_| 0.0);
+    basin.put(|_| [1.0, 0.0, 0.0, 0.0]);
+    let water = scene::ShallowWater {
+        step_seconds: 0.01,
+        swell: Some(scene::Swell { amplitude_metres: AMPLITUDE as f32, period_seconds: 1.0 }),
+        ..scene::ShallowWater::default()
+    };
+    for step in (0..300).step_by(100) {
+        let spells: Vec<_> = (step..step + 100).map(|step| ShallowWaterSpell::new(&water, step)).collect();
+        run(basin.gpu, |recorder| basin.water.record(recorder, &mut basin.set, &spells, &[], false));
+        // The last substep takes the sea as it is in its middle.
+        let control = basin.control();
+        let middle = 0.01 * (step + 100) as f64 - 0.5 * f64::from(control.dt);
+        assert!((f64::from(control.rise) - AMPLITUDE * (TAU * middle).sin()).abs() <= 1e-4 * AMPLITUDE, "{control:?}");
+    }
+    let celerity = GRAVITY.sqrt();
+    // From the centre of the texel beyond the border, where the sea is. Not where the swell began, with a kink in its velocity.
+    let depths = basin.depths();
+    let off = depths[..180].iter().enumerate().map(|(x, depth)| {
+        let seconds = 3.0 - 0.05 * (x as f64 + 1.0) / celerity;
+        (depth - 1.0 - if seconds > 0.0 { AMPLITUDE * (TAU * seconds).sin() } else { 0.0 }).abs()
+    });
+    let off = off.fold(0.0, f64::max) / AMPLITUDE;
+    println!("off by {off:.4} amplitudes");
+    assert!(off <= WATER_SWELL, "{off}");
+}
+
+#[test]
+fn what_is_thin_between_fast_water_gives_no_more_than_it_has() {
+    for border in [Border::Wall, Border::Periodic] {
+        let Some(mut basin) = Basin::new(params([45, 38], 0.1, border)) else { return };
+        let drawn = noise(17, 45 * 38 * 3);
+        basin.put_bed(|_| 0.0);
+        // Deep, thin and dry texels side by side, thrown about faster than their own waves.
+        let states: Vec<State> = drawn
+            .chunks_exact(3)
+            .map(|draw| {
+                let depth = if draw[0] < 0.3 { 0.0 } else { 10.0_f64.powf(-5.0 * draw[0] + 1.0) };
+                [depth, 16.0 * draw[1] - 8.0, 16.0 * draw[2] - 8.0, 0.0]
+            })
+            .collect();
+        basin.put_states(&states);
+        let before = basin.mass();
+        basin.cap(4);
+        basin.run(200, 0.002);
+        let control = basin.control();
+        let drift = basin.mass() / before - 1.0;
+        println!("{border:?}: {drift:.1e} in {} substeps", control.substeps);
+        assert!(drift.abs() <= WATER_MASS && control.halted == 0, "{border:?}: {drift:e}");
+    }
+}
+
+#[test]
+fn a_plunger_sinks_as_deep_as_it_says_adds_nothing_and_makes_rings() {
+    const PERIOD: f64 = 0.8;
+    let plunger = scene::Plunger { centre: [0.5; 2], radius_metres: 0.3, depth_metres: 0.05, period_seconds: PERIOD as f32 };
+    let water = scene::ShallowWater { step_seconds: 0.01, plungers: vec![plunger], ..scene::ShallowWater::default() };
+    let lattice = Lattice { size: [201, 201], texel_metres: 0.03, depth_metres: 1.0 };
+    let of_step = |step: u64| events_in_step(&water, 0, &lattice, step).collect::<Vec<_>>();
+    // Half a period down, half a period up again, which draws nothing after it.
+    let sunk: f32 = (0..40).flat_map(of_step).map(|event| event.metres).sum();
+    assert!((sunk - 0.05).abs() < 1e-6, "it sank by {sunk}");
+    assert_eq!((40..80).flat_map(of_step).count(), 0, "it rises without a pull");
+
+    let Some(mut basin) = Basin::new(params([201, 201], 0.03, Border::Wall)) else { return };
+    basin.put_bed(|_| 0.0);
+    basin.put(|_| [0.1, 0.0, 0.0, 0.0]);
+    basin.cap(2);
+    let before = basin.mass();
+    // What rises from the plunger eastward, after so many periods. Waves run 1 m/s: in five nothing has come back from a wall to 1.5 m.
+    let east = |basin: &Basin| basin.depths()[100 * 201 + 100..101 * 201].iter().map(|depth| depth - 0.1).collect::<Vec<_>>();
+    let mut profiles = Vec::new();
+    for period in 0..5 {
+        let events: Vec<_> =
+            (0..80_u64).flat_map(|step| of_step(80 * period + step).into_iter().map(move |event| (step as u32, event))).collect();
+        basin.run_with(80, 0.01, &events);
+        profiles.push(east(&basin));
+        if period == 2 {
+            let depths = basin.depths();
+            let largest = profiles[2].iter().fold(0.0_f64, |most, rise| most.max(rise.abs()));
+            // They are round: every direction has the same.
+            let ways: [fn(usize) -> usize; 3] = [|r| 100 * 201 + 100 - r, |r| (100 + r) * 201 + 100, |r| (100 - r) * 201 + 100];
+            for way in ways {
+                let apart = (0..100).map(|r| (depths[way(r)] - 0.1 - profiles[2][r]).abs()).fold(0.0, f64::max);
+                assert!(apart <= 0.02 * largest, "{apart} of {largest}");
+            }
+            // The first of them is as far as waves of 10 cm of water come in three periods, from within the plunger.
+            let front = (0..100).rfind(|&r| profiles[2][r].abs() > 0.1 * largest).expect("there is a ring");
+            let way = 3.0 * PERIOD * (GRAVITY * 0.1).sqrt();
+            assert!((way - 0.3..way + 0.3).contains(&(0.03 * front as f64)), "{front} texels, {way} m");
+        }
+    }
+    let drift = basin.mass() / before - 1.0;
+    assert!(drift.abs() <= WATER_MASS, "{drift:e}");
+    assert_eq!(basin.control().behind, 0.0);
+    // By then one period is like the next.
+    let largest = profiles[4][12..50].iter().fold(0.0_f64, |most, rise| most.max(rise.abs()));
+    let apart = (12..50).map(|r| (profiles[4][r] - profiles[3][r]).abs()).fold(0.0, f64::max);
+    println!("rings {largest:.5} m high, {:.3} of that from period to period", apart / largest);
+    assert!(largest > 1e-3 && apart <= WATER_RING * largest, "{apart} of {largest}");
 }
 
 #[test]

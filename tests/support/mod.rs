@@ -2,6 +2,7 @@
 
 #[cfg(target_os = "linux")]
 pub mod desktop;
+pub mod extremes;
 pub mod fields;
 pub mod gas;
 pub mod gpu;

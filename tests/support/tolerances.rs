@@ -62,6 +62,10 @@ pub const GAS_SKIPPING: f64 = 2e-3;
 /// What is shown of the gas in a half: 11 bits, of numbers up to 4.
 pub const GAS_COVER: f64 = 4.0 / 2048.0;
 
+/// What a projected component may have, of the limit that forces keep: the projection turns others into it, and the leading velocity
+/// is half again as far.
+pub const GAS_SPEED: f64 = 2.0;
+
 /// A stamp against its f64 reference, in units of the largest height in play: some ten operations at 2⁻²⁴, and one division that
 /// WGSL allows 2.5 ulp. "A few ulp."
 pub const STAMP_HEIGHT: f64 = 8.0 * ULP;
@@ -318,6 +322,23 @@ pub const WATER_REST: f64 = 1e-5;
 
 /// Drift of the mass between walls over 2,000 steps: the project's bar.
 pub const WATER_MASS: f64 = 1e-5;
+
+/// Drift of the mass between walls over some 500 substeps at an end of a range, with rings that thousands of drops and a plunger make:
+/// each of them rounds what it moves.
+pub const WATER_MASS_ENDURED: f64 = 1e-4;
+
+/// A swell of a thousandth of the depth against a linear wave, in amplitudes, over three wavelengths of 63 texels each: minmod slopes
+/// flatten crests. Half as much again as was measured.
+pub const WATER_SWELL: f64 = 0.18;
+
+/// How far the rings of one period of a plunger may be from those of the next, in their height, when the first have passed.
+pub const WATER_RING: f64 = 0.1;
+
+/// What covers a field with water, in a half: 11 bits, of numbers below 1.
+pub const WATER_COVER: f64 = 1.0 / 2048.0;
+
+/// What a flow may exceed a clamped velocity times its depth by, relative: two roundings of f32.
+pub const WATER_CAP: f64 = 5e-7;
 
 /// Net of a dent and its ring, in volumes of the dent: sums of some thousand f32 numbers.
 pub const WATER_NET: f64 = 1e-5;

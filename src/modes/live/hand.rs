@@ -75,7 +75,7 @@ pub struct Brush {
 
 impl Brush {
     /// Smallest and largest radius, metres.
-    pub const RADIUS_METRES: [f32; 2] = [0.002, 0.3];
+    pub const RADIUS_METRES: [f32; 2] = [0.002, 2.0];
 
     /// What suits a scene.
     pub fn of(scene: &Scene) -> Self {
