@@ -119,7 +119,7 @@ fn a_still_gas_planet_costs_at_most_a_quarter_of_a_busy_one() {
     let Some(gpu) = gpu() else { return };
     let gas = Gas { beta: 4.0, bands: Some(GasBands::default()), emitters: Some(GasEmitters::default()), ..Gas::default() };
     let mut scene = Scene { gas: Some(gas), base: Base::Flat { height: 0.6 }, ..Scene::default() };
-    (scene.field.size, scene.field.addressing, scene.plane.width_metres) = ([96, 48], Addressing::Wrap, 3.14);
+    (scene.field.size, scene.field.addressing, scene.plane.width_metres) = ([96, 48], Addressing::Wrap, 3.0);
     let heights = base::heights(&scene).expect("a flat field is procedural");
     let Relief { mut frame, camera, .. } = Relief::of(gpu, &scene, heights);
     let mut clock = Clock::new(frame.step_seconds());
