@@ -3,20 +3,20 @@
 use std::time::{Duration, Instant};
 
 use rilievo::camera::Camera;
-use rilievo::clock::Tick;
+use rilievo::clock::{Clock, Pace, Tick};
 use rilievo::field::base;
 use rilievo::frame::{Frame, FrameInput, Start};
 use rilievo::gpu::{Gpu, Timer};
 use rilievo::io::height_image::HeightImage;
 use rilievo::modes::capture::{PICTURE_FORMAT, Picture};
 use rilievo::modes::headless::milliseconds_when_idle;
-use rilievo::scene::{Addressing, Base, Scene};
+use rilievo::scene::{Addressing, Base, Gas, GasBands, GasEmitters, Scene};
 use rilievo::stroke::Strokes;
 use rilievo::surface::{Shadow, Shows, Technique};
 
 use crate::captures::capture;
 use crate::support::gpu::gpu;
-use crate::support::tolerances::{CONE_BUDGET, EXACT_BUDGET, FIRST_PICTURE};
+use crate::support::tolerances::{CONE_BUDGET, EXACT_BUDGET, FIRST_PICTURE, STILL_GAS_BUDGET};
 
 /// `relief` at 640×480 without shadows, and its frame.
 struct Relief {
@@ -110,6 +110,57 @@ fn a_cone_shadow_costs_at_most_twice_a_hard_one() {
         );
         assert!(pass <= CONE_BUDGET, "{cone} ms of {hard} ms");
     }
+}
+
+/// The project's bar, of every pass of the field: the same planet with its emitters on, and after they were switched off and its winds
+/// have died down.
+#[test]
+fn a_still_gas_planet_costs_at_most_a_quarter_of_a_busy_one() {
+    let Some(gpu) = gpu() else { return };
+    let gas = Gas { beta: 4.0, bands: Some(GasBands::default()), emitters: Some(GasEmitters::default()), ..Gas::default() };
+    let mut scene = Scene { gas: Some(gas), base: Base::Flat { height: 0.6 }, ..Scene::default() };
+    (scene.field.size, scene.field.addressing, scene.plane.width_metres) = ([96, 48], Addressing::Wrap, 3.0);
+    let heights = base::heights(&scene).expect("a flat field is procedural");
+    let Relief { mut frame, camera, .. } = Relief::of(gpu, &scene, heights);
+    let mut clock = Clock::new(frame.step_seconds());
+    // Milliseconds of a frame that owes a step.
+    let mut step = |frame: &mut Frame| {
+        let tick =
+            clock.advance(Pace::Fixed { dt_seconds: f64::from(frame.scene().gas.as_ref().map_or(0.0, |gas| gas.step_seconds)) });
+        let strokes = Strokes::of_scene(frame.scene(), frame.scene().seed, &tick);
+        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
+        let mut encoder = gpu.encoder("speed");
+        frame.record(gpu, &mut encoder, &input, None).expect("its puffs are few");
+        frame.finish(gpu, encoder);
+        frame.health(gpu);
+        let times = frame.timer.finished_frame().expect("every pass was waited for");
+        times.iter().filter_map(|time| time.milliseconds).sum::<f64>()
+    };
+    let mut median = |frame: &mut Frame| {
+        let mut times: Vec<_> = (0..11).map(|_| step(frame)).collect();
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    median(&mut frame);
+    let busy = median(&mut frame);
+    // No emitters, no winds to return to, and what a gas of some viscosity loses.
+    let cell_metres = scene.texel_metres() as f32;
+    let gas = scene.gas.as_mut().expect("it is a planet of gas");
+    (gas.emitters, gas.confinement_per_second, gas.beta) = (None, 0.0, 0.0);
+    gas.viscosity = 0.19 * cell_metres * cell_metres / gas.step_seconds;
+    let bands = gas.bands.as_mut().expect("it has bands");
+    (bands.wind_metres_per_second, bands.wind_pull_per_second, bands.gas_pull_per_second) = (0.0, 1.0, 1.0);
+    frame.set_scene(gpu, &scene).expect("no source came or went");
+    let mut still = busy;
+    let mut seconds = 0.0;
+    while still > STILL_GAS_BUDGET * busy && seconds < 60.0 {
+        still = median(&mut frame);
+        seconds += 11.0 / 30.0;
+    }
+    println!(
+        "96×48 cells: busy {busy:.2} ms a step, {still:.2} ms {seconds:.0} s after the emitters and the winds were switched off"
+    );
+    assert!(median(&mut frame) <= STILL_GAS_BUDGET * busy, "{still} ms of {busy} ms");
 }
 
 /// Printed, not held: [PDM] fig. 21 has a whole frame grow by 1.28 from 256² to 2048².

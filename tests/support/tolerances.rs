@@ -178,6 +178,9 @@ pub const EXACT_BUDGET: f64 = 4.0;
 /// The surface pass with `cone` in times of that with `hard`: the project's budget.
 pub const CONE_BUDGET: f64 = 2.0;
 
+/// A still gas planet, in times of a busy one: the project's bar.
+pub const STILL_GAS_BUDGET: f64 = 0.25;
+
 /// From the start of the program to its first picture: the project's budget on a software adapter.
 pub const FIRST_PICTURE: std::time::Duration = std::time::Duration::from_secs(2);
 

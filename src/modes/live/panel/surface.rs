@@ -16,7 +16,9 @@ impl Panel {
             const TECHNIQUE: &str = "How the ray of a pixel finds the surface (T)";
             choice(ui, "Technique", TECHNIQUE, &mut trace.technique, was.technique, Technique::ALL, Technique::label);
             choice(ui, "Shadow", "What blocks the light", &mut trace.shadow, was.shadow, Shadow::ALL, Shadow::label);
-            let depth = Control::new("Depth", " mm", 1.0, 500.0).scale(1e3).decimals(1);
+            // A harbour is deeper than a wall: twice what the scene has must be there.
+            let deepest = (2e3 * f64::from(plane_was.depth_metres)).max(500.0);
+            let depth = Control::new("Depth", " mm", 1.0, deepest).scale(1e3).decimals(1);
             value(ui, &depth.tip("How far height 0 lies below the plane"), &mut plane.depth_metres, plane_was.depth_metres);
             techniques::rows(ui, trace, was);
             if trace.shadow == Shadow::Area {
