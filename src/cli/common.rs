@@ -53,7 +53,7 @@ pub struct CommonOptions {
     #[arg(long, value_name = "THRESHOLD|off", value_parser = lod, allow_negative_numbers = true, help_heading = "Scene")]
     lod: Option<Detail>,
 
-    /// Whether exact stays exact under level of detail, or stops at cells a sixth of a pixel: on or off [default: the scene's]
+    /// Whether exact stays exact under level of detail, or stops at cells an eighth of a pixel: on or off [default: the scene's]
     #[arg(long, value_name = "SWITCH", value_parser = switch, help_heading = "Scene")]
     lod_exact: Option<bool>,
 

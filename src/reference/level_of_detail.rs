@@ -24,7 +24,7 @@ pub fn flattened(level: f64, threshold: f64) -> f64 {
 
 /// The level of the mean heights at which a traversal stops in a pixel of this level.
 pub fn trace_level(level: f64) -> f64 {
-    (level - 2.5).max(0.0)
+    (level - 3.0).max(0.0)
 }
 
 /// The height of the plane on which normal mapping is left: above the mean by two fifths of the way to the greatest.

@@ -16,7 +16,7 @@ pub struct Lod {
     /// every pixel gets the full effect. \[POM\] uses 4.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threshold: Option<f32>,
-    /// Whether `exact` stays exact all the same. Else it, too, stops at cells a sixth of a pixel (\[PDM\] §3.4).
+    /// Whether `exact` stays exact all the same. Else it, too, stops at cells an eighth of a pixel (\[PDM\] §3.4).
     pub keep_exact: bool,
     /// Whether light falls on what a pixel sees of the surface, not on one point of it, where `threshold` is absent: by means of
     /// normals and heights, roughness for the differences that they average away, and no shadows smaller than itself. With a

@@ -99,6 +99,8 @@ fn a_flow_that_died_down_is_at_rest_everywhere_and_not_even_recorded() {
         assert!(tank.velocity(index).iter().all(|velocity| *velocity == [0.0, 0.0]));
         assert_eq!(tank.carried(index), tank.carried(0), "all buffers hold the same");
     }
+    // Nor does a tile that wakes start from the pressure of a flow long gone.
+    assert!(tank.pressure().iter().flatten().all(|value| *value == 0.0));
     // A puff wakes it, where it falls.
     let puff = Emission { centre: [48.0, 48.0], radius: 4.0, mass: [1.0, 0.0], velocity: [0.5, 0.0], spin: 0.0 };
     assert!(tank.run(1, &[(0, puff)]));

@@ -109,6 +109,12 @@ impl Tank {
         all.into_iter().map(|four| four.map(f64::from)).map(|[u, v, density, dye]| ([u, v], [density, dye])).unzip()
     }
 
+    /// The pressure of the finest level, and the divergence that is left to the next.
+    pub fn pressure(&self) -> [Vec<f32>; 2] {
+        let buffers = &self.set.buffers;
+        [&buffers.p[0], &buffers.b[0]].map(|buffer| bytemuck::pod_collect_to_vec(&self.bytes(buffer)))
+    }
+
     pub fn state(&self) -> State {
         let start = self.set.role().start();
         let (leading, scalars) = self.carried(start);
