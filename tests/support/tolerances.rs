@@ -381,6 +381,6 @@ pub const RELIEF_PENUMBRA: f64 = 0.02;
 /// The same at its corners, where the shares behind two borders are multiplied: twice what was measured.
 pub const RELIEF_CORNER: f64 = 0.045;
 
-/// By how much a range of `bounds` may miss the surface, heights: the traversal's `TRAVERSAL_SLACK`. Rounding puts a height within half an
-/// ulp of a step's product onto that step, 3e-8.
+/// By how much a range of `bounds` may miss the surface, heights: rounding puts a height within half an ulp of a step's product onto that
+/// step, 3e-8, and the quotient may be an ulp below it. The traversal allows for five times as much.
 pub const BOUND_SLACK: f64 = 1e-7;
