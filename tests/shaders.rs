@@ -220,6 +220,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 water_absorption,
                 slab_penumbra,
                 water_scatter,
+                outline,
             }),
         ),
         ("ViewDetail", layout!(ViewDetail { threshold, traces, filters })),

@@ -122,6 +122,7 @@ struct View {
     water_absorption: vec3f,     // of red, green and blue in a metre of the water that covers the field
     slab_penumbra: f32,          // tangent of half the angle of the light's disc, as slabs see it
     water_scatter: vec3f,        // what deep water gives back of them
+    outline: array<vec2f, 9>,    // of the plane in the picture, in clip space: see src/surface/outline.rs
 }
 
 @group(0) @binding(0) var<storage, read> view_buffer: View;

@@ -10,9 +10,9 @@ fn plane_depth(shaded: Shaded, pixel: PixelRay) -> f32 {
 }
 
 @fragment
-fn plane(cover: Cover) -> ColourAndDepth {
-    cover_view(cover);
-    let pixel = pixel_ray(cover.position.xy);
+fn plane(outline: Outline) -> ColourAndDepth {
+    outline_view(outline);
+    let pixel = pixel_ray(outline.position.xy);
     let coverage = plane_coverage(pixel);
     if coverage == 0.0 {
         discard;
@@ -23,9 +23,9 @@ fn plane(cover: Cover) -> ColourAndDepth {
 }
 
 @fragment
-fn plane_channel(cover: Cover) -> ColourAndDepth {
-    cover_view(cover);
-    let pixel = pixel_ray(cover.position.xy);
+fn plane_channel(outline: Outline) -> ColourAndDepth {
+    outline_view(outline);
+    let pixel = pixel_ray(outline.position.xy);
     if !shows_plane(pixel) {
         discard;
     }

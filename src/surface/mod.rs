@@ -8,6 +8,7 @@ pub mod facet;
 pub mod level_of_detail;
 pub mod light_probe;
 pub mod micropolygon;
+pub mod outline;
 pub mod probe;
 pub mod raster;
 pub mod ray_map;
@@ -119,8 +120,14 @@ impl Choice {
 
     /// For what stands in a scene and is no relief.
     pub fn beside(scene: &Scene) -> Self {
-        let Self { lights, sky_behind, reliefs, .. } = Self::of(scene);
-        Self { lights, sky_behind, reliefs, ..Self::PLAIN }
+        let choice = Self::of(scene);
+        Self { reliefs: choice.reliefs, ..choice.behind() }
+    }
+
+    /// For what is behind it.
+    #[must_use]
+    pub const fn behind(self) -> Self {
+        Self { lights: self.lights, sky_behind: self.sky_behind, ..Self::PLAIN }
     }
 
     /// The same for a view of what it traces.

@@ -88,7 +88,8 @@ impl Geometry {
 
     const fn vertex_entry(self) -> &'static str {
         match self {
-            Self::Backdrop | Self::Plane | Self::Balls => "cover",
+            Self::Backdrop | Self::Balls => "cover",
+            Self::Plane => "outline",
             Self::Facets(_) => "facet_vertex",
             Self::Shell => "shell_vertex",
             Self::Micropolygons | Self::Walls => "micropolygon_vertex",

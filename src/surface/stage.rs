@@ -9,7 +9,7 @@ use super::micropolygon::{Micropolygons, Plan};
 use super::raster::{self, CHANNEL_FORMAT, CHANNEL_PARTS, Geometry, MeshBuffers, Output};
 use super::ray_map::{Placement, Target};
 use super::shell;
-use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, view};
+use super::{Choice, Display, Shows, Technique, View, ViewSet, bind_field, facet, field_layout, outline, view};
 use crate::camera::Camera;
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Gpu, Readback, Recorder, ShaderError};
@@ -279,7 +279,8 @@ impl Stage {
             pass.set_bind_group(2, &buffers.group, &[]);
             let Range { start, end } = draw.triangles;
             match draw.geometry {
-                Geometry::Backdrop | Geometry::Plane | Geometry::Balls => pass.draw(0..3, 0..1),
+                Geometry::Backdrop | Geometry::Balls => pass.draw(0..3, 0..1),
+                Geometry::Plane => pass.draw(0..outline::VERTICES, 0..1),
                 Geometry::Facets(_) => {
                     pass.set_index_buffer(buffers.indices(), wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(3 * start..3 * end, 0, 0..1);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Choice, ViewSet, bind_field, constants, field_layout, parts};
+use super::{Choice, ViewSet, bind_field, constants, field_layout, outline, parts};
 use crate::field::Field;
 use crate::gpu::{BindingLayout, Contract, Gpu, Recorder, Role, ShaderError};
 
@@ -26,6 +26,7 @@ impl Role for Radiance {
 
 /// Traces and shades what the camera sees, with one look.
 pub struct Surface {
+    backdrop: wgpu::RenderPipeline,
     pipeline: wgpu::RenderPipeline,
     layout: BindingLayout,
 }
@@ -36,44 +37,18 @@ pub struct SurfaceSet {
 }
 
 impl Surface {
-    /// Builds the pipeline.
+    /// Builds the pipelines.
     ///
     /// # Errors
     ///
-    /// The shader does not compile.
+    /// A shader does not compile.
     pub fn new(gpu: &Gpu, view: &BindingLayout, choice: Choice) -> Result<Self, ShaderError> {
         let layout = field_layout(gpu);
-        let parts = parts(gpu.filters_r32float(), choice, &["surface"]);
-        let parts: Vec<_> = parts.iter().map(String::as_str).collect();
-        let module = gpu.shaders.module(gpu, "surface", &parts)?;
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("surface"),
-            bind_group_layouts: &[Some(&view.layout), Some(&layout.layout)],
-            immediate_size: 0,
-        });
-        let constants = constants(choice);
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("surface"),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("cover"),
-                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("surface"),
-                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-                targets: &[Some(Radiance::CONTRACT.format.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        Ok(Self { pipeline, layout })
+        let groups = [view, &layout];
+        let backdrop = pipeline(gpu, groups, choice.behind(), ("cover", "backdrop"), None)?;
+        let blend = Some(wgpu::BlendState::ALPHA_BLENDING);
+        let pipeline = pipeline(gpu, groups, choice, ("outline", "surface"), blend)?;
+        Ok(Self { backdrop, pipeline, layout })
     }
 
     /// Binds a field.
@@ -95,10 +70,54 @@ impl Surface {
         let height = radiance.texture().height();
         recorder.render_onto(name, radiance, None, columns.start > 0, |pass| {
             pass.set_scissor_rect(columns.start, 0, columns.end - columns.start, height);
-            pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &view.group, &[]);
             pass.set_bind_group(1, &set.group, &[]);
+            pass.set_pipeline(&self.backdrop);
             pass.draw(0..3, 0..1);
+            pass.set_pipeline(&self.pipeline);
+            pass.draw(0..outline::VERTICES, 0..1);
         });
     }
+}
+
+/// Builds the pipeline with these entry points, of the vertex and of the fragment shader.
+fn pipeline(
+    gpu: &Gpu,
+    groups: [&BindingLayout; 2],
+    choice: Choice,
+    (vertex, fragment): (&str, &str),
+    blend: Option<wgpu::BlendState>,
+) -> Result<wgpu::RenderPipeline, ShaderError> {
+    let parts = parts(gpu.filters_r32float(), choice, &["surface"]);
+    let parts: Vec<_> = parts.iter().map(String::as_str).collect();
+    let module = gpu.shaders.module(gpu, fragment, &parts)?;
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(fragment),
+        bind_group_layouts: &groups.map(|group| Some(&group.layout)),
+        immediate_size: 0,
+    });
+    let constants = constants(choice);
+    let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    let format = Radiance::CONTRACT.format;
+    Ok(gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(fragment),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(vertex),
+            compilation_options: compilation_options.clone(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(fragment),
+            compilation_options,
+            targets: &[Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    }))
 }

@@ -1,6 +1,6 @@
 //! The frame's uniform and sampler: bind group 0.
 
-use glam::{DMat3, DMat4, DVec4};
+use glam::{DMat3, DMat4, DVec2, DVec4};
 
 use crate::camera::Camera;
 use crate::field::{base, material};
@@ -10,7 +10,7 @@ use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 use super::level_of_detail::ViewDetail;
 use super::ray_map::{self, LinearForm, Placement, RayMap, Target};
 use super::reliefs::{self, SLABS_MAX, Slab};
-use super::{Display, micropolygon};
+use super::{Display, micropolygon, outline};
 
 /// A ball beside the relief. Twin of the WGSL struct in `shaders/common/view.wgsl`.
 #[repr(C)]
@@ -118,6 +118,8 @@ pub struct View {
     pub slab_penumbra: f32,
     pub water_scatter: [f32; 3],
     pub pad_water: u32,
+    pub outline: [[f32; 2]; outline::CORNERS_MAX],
+    pub pad_outline: [u32; 2],
 }
 
 impl View {
@@ -223,7 +225,12 @@ impl View {
     pub fn over(self, camera: &Camera, target: &Target) -> Self {
         let rays = RayMap::new(camera, self.image_size, target);
         let placement = &target.placement;
+        let size = DVec2::from(target.field_size.map(f64::from));
+        let half_extent = 0.5 * DVec2::from(self.repeat.map(f64::from)) * size;
+        let forms = ray_map::exact_forms(camera, self.image_size, target);
+        let eye_height = placement.local(camera.eye()).y;
         Self {
+            outline: outline::corners(&forms, eye_height, self.image_size, half_extent, 0.5 * size - 0.5),
             lattice_x: rays.lattice[0],
             lattice_y: rays.lattice[1],
             travel_x: rays.travel[0],

@@ -9,6 +9,7 @@ mod light_ggx;
 mod light_phong;
 mod march;
 mod micropolygon;
+mod outline;
 mod ray_map;
 mod reliefs;
 mod shadow_area;
