@@ -20,7 +20,7 @@
 // The texel that an unbounded coordinate means, an axis.
 fn address(texel: vec2i) -> vec2i {
     let size = vec2i(view.field_size);
-    if view.wrap == 0u {
+    if !view_wraps() {
         return clamp(texel, vec2i(0), size - 1);
     }
     return field_wrapped(texel, size);

@@ -133,6 +133,17 @@ struct View {
 // more than it need, and reads every light there for each lane by itself.
 override LIGHTS: u32 = 4u;
 
+// Whether the field wraps: 1 it does, 0 it clamps, 2 as the view says. Fixed when the pipeline is built, where that is known: a tenth of
+// what the exact traversal computes over a field that clamps is about the tiles of one that wraps.
+override WRAPS: u32 = 2u;
+
+fn view_wraps() -> bool {
+    if WRAPS == 2u {
+        return view.wrap != 0u;
+    }
+    return WRAPS == 1u;
+}
+
 // Light i. By comparisons: an index that varies would keep the whole of the private `view` in memory.
 fn view_light(i: u32) -> ViewLight {
     var source = view.lights[0];

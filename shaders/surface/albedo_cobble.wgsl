@@ -8,7 +8,7 @@ const COBBLE_STONE: f32 = 0.77;
 // The cell of a stone in the tile of a field that wraps: what its height and its colour are told by.
 fn cobble_home(cell: vec2i, cells: vec2i) -> vec2i {
     let remainder = cell % cells;
-    return select(cell, select(remainder, remainder + cells, remainder < vec2i(0)), view.wrap == 1u);
+    return select(cell, select(remainder, remainder + cells, remainder < vec2i(0)), view_wraps());
 }
 
 fn matter_at(point: SurfacePoint) -> Matter {
@@ -16,7 +16,7 @@ fn matter_at(point: SurfacePoint) -> Matter {
     let metres = plane_metres(point.lattice);
     // Where the field wraps, a whole number of stones fits it.
     let cells = max(round(view.plane_size_metres / COBBLE_SIZE), vec2f(1.0));
-    let size = select(vec2f(COBBLE_SIZE), view.plane_size_metres / cells, view.wrap == 1u);
+    let size = select(vec2f(COBBLE_SIZE), view.plane_size_metres / cells, view_wraps());
     let seen = footprint_metres() / COBBLE_SIZE;
     let apart = detail_left(seen);
     let grain = noise_over(metres, 140.0, 7u);

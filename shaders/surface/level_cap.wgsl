@@ -14,7 +14,7 @@ fn trace(ray: Ray) -> Hit {
     hit_level = level;
     let size = vec2i(view.field_size);
     let last = max(size >> vec2u(u32(level)), vec2i(1)) - 1;
-    let wraps = view.wrap != 0u;
+    let wraps = view_wraps();
     let forward = ray.travel > vec2f(0.0);
     let per_travel = 1.0 / select(ray.travel, vec2f(TRAVERSAL_STILL), abs(ray.travel) < vec2f(TRAVERSAL_STILL));
 

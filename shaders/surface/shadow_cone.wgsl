@@ -198,7 +198,7 @@ fn shadow_cone_search(ray: Ray, start: f32, room: f32, travel: vec2f, wedge: Sha
 
 // The bound of a node beside the place's, or of what lies there where the field ends.
 fn shadow_cone_beside(way: TraversalWay, place: TraversalPlace, cell: vec2i) -> f32 {
-    let wraps = view.wrap != 0u;
+    let wraps = view_wraps();
     let begin = way.end - way.cells + select(vec2i(0), vec2i(1), wraps);
     let over = select(select(vec2i(0), -way.cells, cell > way.end), way.cells, cell < begin);
     let inside = select(clamp(cell, begin, way.end), cell + over, wraps);

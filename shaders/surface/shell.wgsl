@@ -21,18 +21,30 @@ struct ShellTriangle {
 
 @group(2) @binding(1) var<storage, read> shell_triangles: array<ShellTriangle>;
 
+// What a pixel needs of its tetrahedron comes along from the vertices, where it is the same: three vertices read by every pixel of every
+// tetrahedron would be half of the picture's time on a software adapter.
 struct ShellVaryings {
     @builtin(position) position: vec4f,
-    @location(0) @interpolate(flat) piece: u32,
+    @location(0) @interpolate(flat) tetrahedron: u32,    // which of its prism's
+    @location(1) @interpolate(flat) borders: u32,        // the sides that are borders of the mesh, a bit each
+    @location(2) @interpolate(flat) corner: vec3f,       // the first
+    @location(3) @interpolate(flat) toward_1: vec3f,     // gradients of the other three's barycentric coordinates
+    @location(4) @interpolate(flat) toward_2: vec3f,
+    @location(5) @interpolate(flat) toward_3: vec3f,
+    @location(6) @interpolate(flat) lattice_01: vec4f,   // of the corners, counted from `cell`
+    @location(7) @interpolate(flat) lattice_23: vec4f,
+    @location(8) @interpolate(flat) cell: vec2f,
+    @location(9) @interpolate(flat) normal: vec3f,       // of the mesh at the first corner, and how it changes by the texel
+    @location(10) @interpolate(flat) normal_per_u: vec3f,
+    @location(11) @interpolate(flat) normal_per_v: vec3f,
 }
 
 // A tetrahedron with less volume than this share of the product of its edges is flat.
 override SHELL_FLAT: f32;
 
-// One tetrahedron: its corners, their heights, and their lattice positions counted from `cell`.
+// One tetrahedron: its corners, and their lattice positions counted from `cell`.
 struct ShellPiece {
     corners: array<vec3f, 4>,
-    heights: vec4f,
     lattice: array<vec2f, 4>,
     cell: vec2f,
     base: array<u32, 3>,
@@ -40,13 +52,10 @@ struct ShellPiece {
 }
 
 // Corner 0…5 of a prism: the upper ends of its three edges, then the lower ends.
-fn shell_corner(base: array<u32, 3>, corner: u32) -> vec4f {
+fn shell_corner(base: array<u32, 3>, corner: u32) -> vec3f {
     var vertices = base;
     let vertex = raster_vertices[vertices[corner % 3u]];
-    if corner < 3u {
-        return vec4f(vertex.position, 1.0);
-    }
-    return vec4f(vertex.position + vertex.inward * view.depth_metres, 0.0);
+    return vertex.position + select(vec3f(0.0), vertex.inward * view.depth_metres, corner >= 3u);
 }
 
 fn shell_lattice(vertex: u32) -> vec2f {
@@ -61,6 +70,11 @@ const SHELL_SIDES = array<vec3u, 4>(vec3u(1u, 2u, 3u), vec3u(0u, 3u, 2u), vec3u(
 // The edge of the triangle over which each of those sides stands, as a bit of `borders`; 0 within the prism, on top and below.
 const SHELL_EDGES = array<vec4u, 3>(vec4u(0u, 0u, 4u, 1u), vec4u(2u, 0u, 0u, 1u), vec4u(2u, 4u, 0u, 0u));
 
+// The heights of the corners of each of a prism's tetrahedra.
+fn shell_heights(tetrahedron: u32) -> vec4f {
+    return select(vec4f(0.0), vec4f(1.0), vec4u(0u, 1u, 2u, 3u) <= vec4u(tetrahedron));
+}
+
 fn shell_piece(piece: u32) -> ShellPiece {
     let triangle = shell_triangles[piece / 3u];
     let base = array<u32, 3>(triangle.vertices.x, triangle.vertices.y, triangle.vertices.z);
@@ -70,9 +84,7 @@ fn shell_piece(piece: u32) -> ShellPiece {
     let corners = prism[piece % 3u];
     var result: ShellPiece;
     for (var i = 0u; i < 4u; i++) {
-        let corner = shell_corner(base, corners[i]);
-        result.corners[i] = corner.xyz;
-        result.heights[i] = corner.w;
+        result.corners[i] = shell_corner(base, corners[i]);
         result.lattice[i] = shell_lattice(vertices[corners[i] % 3u]) - cell;
     }
     result.cell = cell;
@@ -81,30 +93,55 @@ fn shell_piece(piece: u32) -> ShellPiece {
     return result;
 }
 
+// What a pixel needs of it, at a point of the picture.
+fn shell_varyings(number: u32, piece: ShellPiece, position: vec4f) -> ShellVaryings {
+    let a = piece.corners[1] - piece.corners[0];
+    let b = piece.corners[2] - piece.corners[0];
+    let c = piece.corners[3] - piece.corners[0];
+    let per_volume = 1.0 / dot(a, cross(b, c));
+    var edges = SHELL_EDGES;
+    let borders = (edges[number % 3u] & vec4u(piece.borders)) != vec4u(0u);
+    // The normals of the mesh's vertices are linear over the triangle.
+    let first = shell_lattice(piece.base[0]);
+    let along_b = shell_lattice(piece.base[1]) - first;
+    let along_c = shell_lattice(piece.base[2]) - first;
+    let per_area = 1.0 / (along_b.x * along_c.y - along_b.y * along_c.x);
+    let normal = raster_vertices[piece.base[0]].normal;
+    let to_b = raster_vertices[piece.base[1]].normal - normal;
+    let to_c = raster_vertices[piece.base[2]].normal - normal;
+    let normal_per_u = (to_b * along_c.y - to_c * along_b.y) * per_area;
+    let normal_per_v = (to_c * along_b.x - to_b * along_c.x) * per_area;
+    let cells = piece.cell + piece.lattice[0] - first;
+    return ShellVaryings(
+        position, number % 3u, dot(select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), borders), vec4u(1u)), piece.corners[0],
+        cross(b, c) * per_volume, cross(c, a) * per_volume, cross(a, b) * per_volume,
+        vec4f(piece.lattice[0], piece.lattice[1]), vec4f(piece.lattice[2], piece.lattice[3]), piece.cell,
+        normal + normal_per_u * cells.x + normal_per_v * cells.y, normal_per_u, normal_per_v,
+    );
+}
+
 @vertex
 fn shell_vertex(@builtin(vertex_index) index: u32) -> ShellVaryings {
     view = view_buffer;
-    let piece = index / 12u;
-    var tetrahedron = shell_piece(piece);
+    let number = index / 12u;
+    var piece = shell_piece(number);
     var sides = SHELL_SIDES;
     var side = sides[(index / 3u) % 4u];
     let edges = mat3x3f(
-        tetrahedron.corners[1] - tetrahedron.corners[0],
-        tetrahedron.corners[2] - tetrahedron.corners[0],
-        tetrahedron.corners[3] - tetrahedron.corners[0],
+        piece.corners[1] - piece.corners[0],
+        piece.corners[2] - piece.corners[0],
+        piece.corners[3] - piece.corners[0],
     );
     // The sides above wind outward where the volume is positive. A flat tetrahedron, as where the ways inward of two edges end in the
     // same place, holds nothing and has no frame: it is not drawn.
     let volume = determinant(edges);
-    if abs(volume) < SHELL_FLAT * length(edges[0]) * length(edges[1]) * length(edges[2]) {
-        return ShellVaryings(vec4f(0.0, 0.0, 0.0, 1.0), piece);
-    }
-    let turned = volume < 0.0;
+    let is_flat = abs(volume) < SHELL_FLAT * length(edges[0]) * length(edges[1]) * length(edges[2]);
     var corner = index % 3u;
-    if turned && corner != 0u {
+    if volume < 0.0 && corner != 0u {
         corner = 3u - corner;
     }
-    return ShellVaryings(raster_clip(tetrahedron.corners[side[corner]]), piece);
+    let position = select(raster_clip(piece.corners[side[corner]]), vec4f(0.0, 0.0, 0.0, 1.0), is_flat);
+    return shell_varyings(number, piece, position);
 }
 
 struct ShellWay {
@@ -114,19 +151,15 @@ struct ShellWay {
 
 // The pixel's way through its tetrahedron; sets the frame.
 fn shell_way(varyings: ShellVaryings) -> ShellWay {
-    var piece = shell_piece(varyings.piece);
-    let a = piece.corners[1] - piece.corners[0];
-    let b = piece.corners[2] - piece.corners[0];
-    let c = piece.corners[3] - piece.corners[0];
-    let per_volume = 1.0 / dot(a, cross(b, c));
-    // Gradients of the barycentric coordinates.
-    let towards = mat3x3f(cross(b, c) * per_volume, cross(c, a) * per_volume, cross(a, b) * per_volume);
-    var gradients = array<vec3f, 4>(-(towards[0] + towards[1] + towards[2]), towards[0], towards[1], towards[2]);
+    let towards = mat3x3f(varyings.toward_1, varyings.toward_2, varyings.toward_3);
+    let toward_0 = -(towards[0] + towards[1] + towards[2]);
+    let lattices = mat4x2f(varyings.lattice_01.xy, varyings.lattice_01.zw, varyings.lattice_23.xy, varyings.lattice_23.zw);
+    let heights = shell_heights(varyings.tetrahedron);
 
     // The ray, re-based from the eye to about where it is nearest to the tetrahedron's first corner: what is counted from there is
     // small.
     let direction = normalize(raster_direction(varyings.position.xy));
-    let from_eye = raster_from_eye(piece.corners[0]);
+    let from_eye = raster_from_eye(varyings.corner);
     let base = dot(from_eye, direction);
     let offset = base * direction - from_eye;
     let near = view.near_metres / dot(direction, view.forward_world) - base;
@@ -153,52 +186,33 @@ fn shell_way(varyings: ShellVaryings) -> ShellWay {
     leave = max(leave, enter);
     let begin = weights + enter * slopes;
     let way = (leave - enter) * slopes;
-    let lattices = mat4x2f(piece.lattice[0], piece.lattice[1], piece.lattice[2], piece.lattice[3]);
     let start = lattices * begin;
     let whole = floor(start);
-    let floor_is_left = varyings.piece % 3u == 0u && left == 0u;
+    let floor_is_left = varyings.tetrahedron == 0u && left == 0u;
     let ray = Ray(
-        start - whole, lattices * way, clamp(dot(piece.heights, begin), 0.0, 1.0), dot(piece.heights, way),
-        vec2i(piece.cell + whole), 1.0, select(MISS, HIT, floor_is_left),
+        start - whole, lattices * way, clamp(dot(heights, begin), 0.0, 1.0), dot(heights, way),
+        vec2i(varyings.cell + whole), 1.0, select(MISS, HIT, floor_is_left),
     );
 
     // The frame: field space is affine in the barycentric coordinates, and they in the world.
-    let per_u = gradients[0] * piece.lattice[0].x + gradients[1] * piece.lattice[1].x + gradients[2] * piece.lattice[2].x
-        + gradients[3] * piece.lattice[3].x;
-    let per_v = gradients[0] * piece.lattice[0].y + gradients[1] * piece.lattice[1].y + gradients[2] * piece.lattice[2].y
-        + gradients[3] * piece.lattice[3].y;
-    let per_height = gradients[0] * piece.heights[0] + gradients[1] * piece.heights[1] + gradients[2] * piece.heights[2]
-        + gradients[3] * piece.heights[3];
+    let gradients = mat4x3f(toward_0, towards[0], towards[1], towards[2]);
+    let per_u = gradients * vec4f(varyings.lattice_01.xz, varyings.lattice_23.xz);
+    let per_v = gradients * vec4f(varyings.lattice_01.yw, varyings.lattice_23.yw);
+    let per_height = gradients * heights;
     let per_cells = 1.0 / dot(per_u, cross(per_v, per_height));
     let up = cross(per_u, per_v) * per_cells;
-    let anchor = piece.cell + piece.lattice[0];
+    let anchor = varyings.cell + lattices[0];
     frame = Frame(
-        anchor, piece.corners[0] + up * (1.0 - piece.heights[0]), cross(per_v, per_height) * per_cells,
-        cross(per_height, per_u) * per_cells, up, per_u, per_v, per_height, vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0),
+        anchor, varyings.corner + up * (1.0 - heights.x), cross(per_v, per_height) * per_cells,
+        cross(per_height, per_u) * per_cells, up, per_u, per_v, per_height,
+        varyings.normal, varyings.normal_per_u, varyings.normal_per_v, vec3f(0.0),
     );
-    shell_normals(piece, anchor);
     raster_footprint(varyings.position.xy, view.eye_world + view.eye_rest + (base + enter) * direction, frame_normal(anchor));
     // Sides between prisms are open; a ray comes in under the surface only through a border of the mesh.
-    var edges = SHELL_EDGES;
-    if entered < 4u && (edges[varyings.piece % 3u][entered] & piece.borders) != 0u {
-        frame.cut = -normalize(gradients[entered]);
+    if entered < 4u && ((varyings.borders >> entered) & 1u) != 0u {
+        frame.cut = -normalize(select(select(select(toward_0, towards[0], entered == 1u), towards[1], entered == 2u), towards[2], entered == 3u));
     }
     return ShellWay(ray, leave == enter && any(begin < vec4f(-1e-3)));
-}
-
-// The normals of the mesh's vertices, linear over the triangle.
-fn shell_normals(piece: ShellPiece, anchor: vec2f) {
-    let first = shell_lattice(piece.base[0]);
-    let b = shell_lattice(piece.base[1]) - first;
-    let c = shell_lattice(piece.base[2]) - first;
-    let per_area = 1.0 / (b.x * c.y - b.y * c.x);
-    let normal = raster_vertices[piece.base[0]].normal;
-    let to_b = raster_vertices[piece.base[1]].normal - normal;
-    let to_c = raster_vertices[piece.base[2]].normal - normal;
-    frame.normal_per_u = (to_b * c.y - to_c * b.y) * per_area;
-    frame.normal_per_v = (to_c * b.x - to_b * c.x) * per_area;
-    let cells = anchor - first;
-    frame.normal = normal + frame.normal_per_u * cells.x + frame.normal_per_v * cells.y;
 }
 
 @fragment

@@ -12,7 +12,7 @@
 // The field at a vertex of the grid, counted from the upper left corner of the tile; exact where the texels around are alike.
 fn trace_mesh_vertex(vertex: vec2i) -> f32 {
     let quads = max(i32(view.mesh_quads), 1);
-    let within = select(clamp(vertex, vec2i(0), vec2i(quads)), ((vertex % quads) + quads) % quads, view.wrap == 1u);
+    let within = select(clamp(vertex, vec2i(0), vec2i(quads)), ((vertex % quads) + quads) % quads, view_wraps());
     let lattice = vec2f(within) * (vec2f(view.field_size) / f32(quads)) - 0.5;
     let cell = floor(lattice);
     let z = load_corners(vec2i(cell));
@@ -41,7 +41,7 @@ fn trace(ray: Ray) -> Hit {
     // The ray in quads, counted from a vertex near its start.
     let size = vec2f(view.field_size);
     let scale = f32(max(view.mesh_quads, 1u)) / size;
-    let tile = select(vec2f(0.0), floor(vec2f(ray.cell) / size), view.wrap == 1u);
+    let tile = select(vec2f(0.0), floor(vec2f(ray.cell) / size), view_wraps());
     let origin = (vec2f(ray.cell - vec2i(tile) * vec2i(view.field_size)) + 0.5 + ray.lattice) * scale;
     let base = floor(origin);
     let start = origin - base;

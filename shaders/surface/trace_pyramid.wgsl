@@ -66,7 +66,7 @@ fn trace_pyramid_across(way: TracePyramidWay, place: TracePyramidPlace, within: 
 fn trace_pyramid_way(travel: vec2f) -> TracePyramidWay {
     let backward = travel < vec2f(0.0);
     let toward = select(vec2i(1), vec2i(-1), backward);
-    return TracePyramidWay(vec2i(view.field_size), view.wrap != 0u, backward, toward, i32(textureNumLevels(pyramid)) - 1);
+    return TracePyramidWay(vec2i(view.field_size), view_wraps(), backward, toward, i32(textureNumLevels(pyramid)) - 1);
 }
 
 // The place at a lattice position, counted from the ray's cell, from which the ray goes on.

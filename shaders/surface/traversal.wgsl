@@ -82,7 +82,7 @@ fn traversal_way(lattice: vec2f, travel: vec2f) -> TraversalWay {
     let origin = select(lattice, -lattice, backward);
     let per_travel = 1.0 / select(along, vec2f(TRAVERSAL_STILL), still);
     let cells = vec2i(view.field_size);
-    let wraps = view.wrap != 0u;
+    let wraps = view_wraps();
     // Turned over, a tile's last cell is 0, called −1; a clamped field has half a cell before that.
     let end = select(cells - 1, select(vec2i(0), vec2i(-1), wraps), backward);
     let top = max(i32(firstLeadingBit(max(view.field_size.x, view.field_size.y) - 1u)) + 1, 1);
@@ -97,7 +97,7 @@ fn traversal_way(lattice: vec2f, travel: vec2f) -> TraversalWay {
 fn traversal_place(way: TraversalWay, ray_cell: vec2i, t: f32, level: i32) -> TraversalPlace {
     let at = vec2i(floor(way.origin + t * way.travel));
     let cell = (at ^ way.flip) + ray_cell;
-    if view.wrap != 0u {
+    if view_wraps() {
         let within = field_wrapped(cell, way.cells) ^ way.flip;
         return TraversalPlace(within, at - within + 1, level);
     }
@@ -135,8 +135,8 @@ fn traversal_across(way: TraversalWay, place: TraversalPlace, there: vec2i, last
     let above = place.level + TRAVERSAL_STRIDE;
     let next = select(last.y, last.x, crosses.x) + 1;
     let leaves = (next & ((1i << u32(above)) - 1)) == 0;
-    // A tile's end leaves every node behind.
-    let ends = crosses & (last == way.end);
+    // A tile's end leaves every node behind; a field that clamps is all in one.
+    let ends = crosses & (last == way.end) & vec2<bool>(view_wraps());
     let over = select(vec2i(0), way.cells, ends);
     return TraversalPlace(
         select(there, last + 1, crosses) - over,
@@ -170,7 +170,8 @@ struct TraversalAt {
     ended: bool,  // where the ray does
 }
 
-// A falling ray is above everything until here.
+// A falling ray is above everything until here. The nodes on the way would tell as much, and do in as many steps in a usual picture; but
+// a ray that grazes a field that wraps may cross millions of cells before.
 fn traversal_begin(way: TraversalWay, ray: Ray) -> f32 {
     return select(0.0, clamp((traversal_highest(way) - ray.height) / min(ray.rise, -TRAVERSAL_STILL), 0.0, ray.t_end), ray.rise < 0.0);
 }

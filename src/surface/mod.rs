@@ -30,7 +30,7 @@ pub use view::{View, ViewSet};
 
 use crate::field;
 use crate::gpu::{Binding, BindingLayout, Gpu};
-use crate::scene::{Background, Scene};
+use crate::scene::{Addressing, Background, Scene};
 
 /// What a picture is made with: the parts that are chosen, not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -62,6 +62,8 @@ pub struct Choice {
     pub marks: bool,
     /// Whether there may be anything on the material: posts, or what was ever pressed into the relief.
     pub stamped: bool,
+    /// Whether the field wraps; none where one pipeline serves fields that do and fields that do not.
+    pub wraps: Option<bool>,
     /// How many lights shine.
     pub lights: u32,
     /// Whether the sky is behind everything, not a studio.
@@ -90,6 +92,7 @@ impl Choice {
             reliefs: false,
             marks: false,
             stamped: true,
+            wraps: None,
             lights: 1,
             sky_behind: false,
             views: false,
@@ -111,6 +114,7 @@ impl Choice {
             covered: scene.shallow_water.is_some(),
             reliefs: reliefs::are_seen(scene),
             marks,
+            wraps: Some(scene.field.addressing == Addressing::Wrap),
             // Validation refuses more lights than there is room for.
             lights: scene.all_lights().len() as u32,
             sky_behind: scene.light.background == Background::Sky,
@@ -196,6 +200,7 @@ pub(crate) fn constants(choice: Choice) -> Vec<(&'static str, f64)> {
     ];
     let mut constants = switches.map(|(name, on)| (name, f64::from(u8::from(on)))).to_vec();
     constants.push(("LIGHTS", f64::from(choice.lights)));
+    constants.extend(choice.wraps.map(|wraps| ("WRAPS", f64::from(u8::from(wraps)))));
     constants.extend(field::material::CONSTANTS);
     constants.extend(field::bounds::CONSTANTS);
     constants.extend(match choice.albedo {
