@@ -189,6 +189,7 @@ pub struct Frame {
 #[derive(Clone, Copy, Debug, Default)]
 struct Traffic {
     derived_texels: u64,
+    with_pyramid: bool,
 }
 
 impl Frame {
@@ -465,11 +466,10 @@ impl Frame {
         let recorder = &mut Recorder { gpu, encoder, timer: &self.timer };
         // Compose relief and sources into the height field proper …
         let (changed, texels) = self.stack.compose_top(recorder, &self.scene, self.field.size);
-        self.traffic.derived_texels = texels;
-        if !changed.is_empty() {
-            self.derive(recorder, &changed);
-        }
-        self.reliefs.derive(recorder, &self.derive, &self.scene);
+        let with_pyramid = self.sides(&input.display).iter().any(|side| side.choice().reads_pyramid());
+        self.traffic = Traffic { derived_texels: texels, with_pyramid };
+        self.derive(recorder, &changed, with_pyramid);
+        self.reliefs.derive(recorder, &self.derive, &self.scene, with_pyramid);
         // March, shade and shadow what the camera sees, and tone-map it to whatever we were given: a window or an image.
         self.show(recorder, (&self.present, &self.present_set), input, target);
         Ok(())
@@ -512,10 +512,10 @@ impl Frame {
     }
 
     /// Derives everything that depends on the heights alone, over the texels that changed.
-    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region]) {
+    fn derive(&self, recorder: &mut Recorder<'_>, changed: &[Region], with_pyramid: bool) {
         let scene = &self.scene;
         let (slope_per_height, with_mips) = (slope_per_height(&scene.plane, scene.field.size), scene.lod.filters());
-        self.derive.record(recorder, &self.derive_set, changed, Derivation { slope_per_height, with_mips });
+        self.derive.record(recorder, &self.derive_set, changed, Derivation { slope_per_height, with_mips, with_pyramid });
     }
 
     /// Shows the field as it stands.
@@ -601,7 +601,8 @@ impl Frame {
     /// tiles that a changed region is rounded to, are not counted.
     pub fn field_traffic_bytes(&self) -> u64 {
         let mips = if self.scene.lod.filters() { normal_mips::TEXEL_BYTES } else { 0 };
-        let derived = normals::TEXEL_BYTES + mips + pyramid::TEXEL_BYTES + bounds::TEXEL_BYTES;
+        let pyramid = if self.traffic.with_pyramid { pyramid::TEXEL_BYTES } else { 0 };
+        let derived = normals::TEXEL_BYTES + mips + pyramid + bounds::TEXEL_BYTES;
         self.stack.traffic_bytes() + self.groundwork.traffic_bytes() + self.traffic.derived_texels * derived
     }
 

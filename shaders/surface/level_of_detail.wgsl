@@ -7,7 +7,7 @@
 // one pixel down make. So nothing aliases, and what a grazing pixel's short side could still show is lost with the long one.
 //
 // Specification: src/reference/level_of_detail.rs. Needs common/view, common/field, surface/ray,
-// surface/frame, surface/matter and a height part.
+// surface/frame, surface/matter, surface/traversal and a height part.
 
 struct Footprint {
     texels: vec2f,    // its extent along u and along v
@@ -75,7 +75,7 @@ fn detail_samples(samples: f32) -> f32 {
 // Where a ray meets the plane on which normal mapping is left.
 fn detail_plane(ray: Ray) -> f32 {
     let mean = textureLoad(normal_map, vec2i(0), i32(textureNumLevels(normal_map)) - 1).w;
-    let top = textureLoad(pyramid, vec2i(0), i32(textureNumLevels(pyramid)) - 1).r;
+    let top = traversal_highest(traversal_way(ray.lattice, ray.travel));
     return clamp((mix(mean, top, DETAIL_PLANE) - ray.height) / ray.rise, 0.0, ray.t_end);
 }
 

@@ -3,6 +3,8 @@
 //! The order of the passes and how far each looks beyond what changed stand here once, for the field that lives and for those that
 //! stay as they are.
 
+use std::cell::Cell;
+
 use super::bounds::{BoundsPass, BoundsSet};
 use super::normal_mips::{NormalMips, NormalMipsSet};
 use super::normals::{Normals, NormalsSet};
@@ -25,6 +27,8 @@ pub struct DeriveSet {
     normal_mips: NormalMipsSet,
     pyramid: PyramidSet,
     bounds: BoundsSet,
+    /// Whether heights changed since the pyramid was built, which nothing read then.
+    pyramid_is_stale: Cell<bool>,
     size: [u32; 2],
     addressing: Addressing,
 }
@@ -36,6 +40,8 @@ pub struct Derivation {
     pub slope_per_height: [f32; 2],
     /// Whether means of normals and heights are wanted.
     pub with_mips: bool,
+    /// Whether anything reads the pyramid. It costs a software adapter three times what the bounds do, and \[PDM\] alone needs it.
+    pub with_pyramid: bool,
 }
 
 impl Derive {
@@ -60,6 +66,7 @@ impl Derive {
             normal_mips: self.normal_mips.bind(gpu, field),
             pyramid: self.pyramid.bind(gpu, field),
             bounds: self.bounds.bind(gpu, field),
+            pyramid_is_stale: Cell::new(true),
             size: field.size,
             addressing: field.addressing,
         }
@@ -79,7 +86,12 @@ impl Derive {
         }
         // … and its bounds, which the cells before a texel see.
         let cells = grown(1, 0);
-        self.pyramid.record(recorder, &set.pyramid, &cells);
+        if derivation.with_pyramid {
+            let whole = set.pyramid_is_stale.replace(false).then(|| Region::all(set.size));
+            self.pyramid.record(recorder, &set.pyramid, whole.as_ref().map_or(&cells, std::slice::from_ref));
+        } else if !changed.is_empty() {
+            set.pyramid_is_stale.set(true);
+        }
         self.bounds.record(recorder, &set.bounds, &cells);
     }
 }

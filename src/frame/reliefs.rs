@@ -71,17 +71,18 @@ impl Stills {
         self.all.iter_mut().for_each(|still| still.is_stale = true);
     }
 
-    /// Derives those that are stale.
-    pub(super) fn derive(&mut self, recorder: &mut Recorder<'_>, derive: &Derive, scene: &Scene) {
+    /// Derives those that are stale, and their pyramids where something reads them.
+    pub(super) fn derive(&mut self, recorder: &mut Recorder<'_>, derive: &Derive, scene: &Scene, with_pyramid: bool) {
         let Some(compose) = &self.compose else { return };
         for (still, relief) in self.all.iter_mut().zip(&scene.reliefs) {
-            if std::mem::take(&mut still.is_stale) {
-                let whole = [Region::all(still.field.size)];
-                compose.record(recorder, &still.compose_set, &whole, &[]);
-                let slope_per_height = slope_per_height(&relief.plane, relief.field.size);
-                let derivation = Derivation { slope_per_height, with_mips: scene.lod.filters() };
-                derive.record(recorder, &still.derive_set, &whole, derivation);
+            let whole = [Region::all(still.field.size)];
+            let changed = if std::mem::take(&mut still.is_stale) { whole.as_slice() } else { &[] };
+            if !changed.is_empty() {
+                compose.record(recorder, &still.compose_set, changed, &[]);
             }
+            let slope_per_height = slope_per_height(&relief.plane, relief.field.size);
+            let derivation = Derivation { slope_per_height, with_mips: scene.lod.filters(), with_pyramid };
+            derive.record(recorder, &still.derive_set, changed, derivation);
         }
     }
 

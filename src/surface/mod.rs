@@ -134,6 +134,11 @@ impl Choice {
         Self { lights: self.lights, sky_behind: self.sky_behind, ..Self::PLAIN }
     }
 
+    /// Whether it reads the pyramid: \[PDM\] does, and the view that ends the traversal at a level of it.
+    pub const fn reads_pyramid(self) -> bool {
+        matches!(self.technique, Technique::Pyramid) || self.caps_level
+    }
+
     /// The same for a view of what it traces.
     #[must_use]
     pub const fn showing(self, shows: Shows) -> Self {

@@ -12,7 +12,7 @@ use rilievo::gpu::Gpu;
 use rilievo::reference;
 use rilievo::scene::{Addressing, Base, Explosions, Healing, Scene, Shots};
 use rilievo::stroke::{Random, Stream, Strokes};
-use rilievo::surface::Shows;
+use rilievo::surface::{Shows, Technique};
 
 use crate::support::gpu::{gpu, read, run};
 use crate::support::tolerances::HEAL_STEP;
@@ -247,6 +247,7 @@ fn a_derived_field_after_undo_equals_one_that_was_never_pressed() {
     let Some(gpu) = gpu() else { return };
     let mut scene = Scene { base: Base::Terrain {}, ..Scene::default() };
     scene.field.size = [100, 70];
+    scene.trace.technique = Technique::Pyramid;
     let heights = rilievo::field::base::heights(&scene).expect("it is procedural");
     let mut frame = Frame::new(gpu, &Start::new(&scene, heights, None), [16, 16], wgpu::TextureFormat::Rgba8Unorm)
         .expect("its shaders compile");

@@ -3,6 +3,7 @@
 mod bounds;
 mod compose;
 mod cool;
+mod derive;
 mod endurance;
 mod gas;
 mod gas_activity;
