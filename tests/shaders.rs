@@ -56,7 +56,7 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/material", "field/cool"],
         &["common/material", "field/heal"],
         &["field/wave"],
-        &["common/shallow_water", "field/shallow_water"],
+        &["common/shallow_water", "field/shallow_water_flux", "field/shallow_water"],
         &["common/shallow_water", "field/shallow_water_disturb"],
         &["common/shallow_water", "field/shallow_water_plan"],
         &["common/shallow_water", "field/shallow_water_publish"],

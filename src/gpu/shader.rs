@@ -53,6 +53,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "field/pyramid"
     "field/shallow_water"
     "field/shallow_water_disturb"
+    "field/shallow_water_flux"
     "field/shallow_water_plan"
     "field/shallow_water_publish"
     "field/stamp"
