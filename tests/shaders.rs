@@ -47,7 +47,7 @@ fn compositions() -> Vec<Vec<String>> {
         &["common/gas", "field/gas_advect"],
         &["common/gas", "field/gas_emit"],
         &["common/gas", "field/gas_force"],
-        &["field/gas_project"],
+        &["field/gas_project_smooth", "field/gas_project"],
         &["common/gas", "field/gas_show"],
         &["common/region", "field/normal_mips"],
         &["common/region", "field/normals"],

@@ -39,6 +39,7 @@ pub const EMBEDDED: &[(&str, &str)] = embed! {
     "field/gas_emit"
     "field/gas_force"
     "field/gas_project"
+    "field/gas_project_smooth"
     "field/gas_show"
     "field/cool"
     "field/heal"
