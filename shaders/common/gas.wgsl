@@ -34,6 +34,15 @@ fn gas_place(workgroup: vec3u, workgroups: vec3u) -> u32 {
     return workgroup.y * workgroups.x + workgroup.x;
 }
 
+// The cell of an invocation that works on the listed tiles; as large as the grid where they end.
+fn gas_cell(workgroup: vec3u, workgroups: vec3u, local: vec3u) -> vec2i {
+    let place = gas_place(workgroup, workgroups);
+    if place >= tile_list[0] {
+        return gas.size;
+    }
+    return gas_tile(place) * i32(GAS_TILE) + vec2i(local.xy);
+}
+
 // The cell that a coordinate beyond the border means. Floats, since integer division is slow on vectors of lanes; exact while the
 // quotient and the size have no more than 24 bits between them.
 fn gas_address(cell: vec2i) -> vec2i {

@@ -155,11 +155,7 @@ fn gas_settle_carried(
     @builtin(num_workgroups) workgroups: vec3u,
     @builtin(local_invocation_id) local: vec3u,
 ) {
-    let place = gas_place(workgroup, workgroups);
-    if place >= tile_list[0] {
-        return;
-    }
-    let cell = gas_tile(place) * i32(GAS_TILE) + vec2i(local.xy);
+    let cell = gas_cell(workgroup, workgroups, local);
     if any(cell >= gas.size) {
         return;
     }

@@ -7,7 +7,7 @@
 //
 // On the finest level the way down reads 8 bytes a cell and writes 5, the way up reads 13 and writes 8; coarser ones read 4 and
 // write 5, then read 9 and write 4, of a quarter of the cells each. A cycle moves 42 bytes a cell. The last cycle reads 16 more and
-// writes 16, for the leading velocity. Specification: src/reference/gas_project.rs.
+// writes 16, for the leading velocity. Specification: src/reference/gas_project.rs. Composed after field/gas_project_smooth.wgsl.
 
 override GAS_TILE: u32;
 
@@ -20,11 +20,6 @@ struct GasLevel {
     tiles_across: i32,         // tiles along u
 }
 
-override GAS_BEFORE_0: f32;
-override GAS_BEFORE_1: f32;
-override GAS_AFTER_0: f32;
-override GAS_AFTER_1: f32;
-override GAS_AFTER_2: f32;
 // Whether it is the last cycle of a step, and by how much the carried velocity leads.
 override GAS_LAST: bool;
 override GAS_LEAD: f32;
@@ -53,14 +48,6 @@ override GAS_HEADER: u32;
 @group(1) @binding(2) var<storage, read> inverse: array<f32>;
 @group(1) @binding(3) var<storage, read_write> solved: array<f32>;
 
-// A tile with what surrounds it: three cells before and five after it on the way down, four and four on the way up.
-const GAS_SIDE: u32 = 24u;
-const GAS_AREA: u32 = 576u;
-const GAS_DOWN: i32 = 3;
-const GAS_UP: i32 = 4;
-var<workgroup> one: array<f32, GAS_AREA>;
-var<workgroup> other: array<f32, GAS_AREA>;
-var<workgroup> source: array<f32, GAS_AREA>;
 var<workgroup> fastest: atomic<u32>;
 
 fn project_address(cell: vec2i, size: vec2i) -> vec2i {
@@ -77,17 +64,6 @@ fn project_open(cell: vec2i) -> vec2f {
     return select(vec2f(0.0), vec2f(1.0), (level.periodic == vec2i(1)) | ((cell > vec2i(0)) & (cell < level.size)));
 }
 
-// The column and row of a place in the tile's surroundings. lavapipe divides integers lane by lane; floats are exact here.
-fn surrounding(k: u32) -> vec2u {
-    let row = u32((f32(k) + 0.5) * (1.0 / f32(GAS_SIDE)));
-    return vec2u(k - row * GAS_SIDE, row);
-}
-
-// A cell of the tile's surroundings.
-fn project_cell(origin: vec2i, k: u32) -> vec2i {
-    return origin + vec2i(surrounding(k));
-}
-
 // a / b of whole numbers that are not negative, rounded down, without an integer division: the float's quotient is off by one at most.
 fn quotient(a: vec2i, b: vec2i) -> vec2i {
     let near = vec2i(floor(vec2f(a) / vec2f(b)));
@@ -95,79 +71,11 @@ fn quotient(a: vec2i, b: vec2i) -> vec2i {
     return near + select(vec2i(0), vec2i(1), left >= b) - select(vec2i(0), vec2i(1), left < vec2i(0));
 }
 
-// Whether a place is at least so many from the low and from the high border of the tile's surroundings.
-fn within(k: u32, low: u32, high: u32) -> bool {
-    let at = surrounding(k);
-    return all(at >= vec2u(low)) && all(at < vec2u(GAS_SIDE - high));
-}
-
 fn divergence(cell: vec2i) -> f32 {
     let here = velocity[project_index(cell)] * project_open(cell);
     let east = velocity[project_index(cell + vec2i(1, 0))].x * project_open(cell + vec2i(1, 0)).x;
     let south = velocity[project_index(cell + vec2i(0, 1))].y * project_open(cell + vec2i(0, 1)).y;
     return (east - here.x) + (south - here.y);
-}
-
-// What a cell exchanges with its neighbours in the west, east, north and south. An axis of one cell has none.
-fn exchanges(cell: vec2i) -> vec4f {
-    let several = select(vec2f(0.0), level.exchange, level.size > vec2i(1));
-    let low = project_open(cell) * several;
-    let high = project_open(cell + 1) * several;
-    return vec4f(low.x, high.x, low.y, high.y);
-}
-
-// L p − b of `one`, and of `other`.
-fn excess_of_one(k: u32, by: vec4f) -> f32 {
-    let here = one[k];
-    return by.x * (one[k - 1u] - here) + by.y * (one[k + 1u] - here) + by.z * (one[k - GAS_SIDE] - here)
-        + by.w * (one[k + GAS_SIDE] - here) - source[k];
-}
-
-fn excess_of_other(k: u32, by: vec4f) -> f32 {
-    let here = other[k];
-    return by.x * (other[k - 1u] - here) + by.y * (other[k + 1u] - here) + by.z * (other[k - GAS_SIDE] - here)
-        + by.w * (other[k + GAS_SIDE] - here) - source[k];
-}
-
-// A Jacobi sweep's weight over the sum of the exchanges.
-fn sweep_factor(weight: f32, by: vec4f) -> f32 {
-    let diagonal = by.x + by.y + by.z + by.w;
-    return select(0.0, weight / max(diagonal, 1e-30), diagonal > 0.0);
-}
-
-fn sweep_one_into_other(local_index: u32, origin: vec2i, low: u32, high: u32, weight: f32) {
-    for (var k = local_index; k < GAS_AREA; k += GAS_TILE * GAS_TILE) {
-        if within(k, low, high) {
-            let by = exchanges(project_cell(origin, k));
-            other[k] = one[k] + sweep_factor(weight, by) * excess_of_one(k, by);
-        }
-    }
-    workgroupBarrier();
-}
-
-fn sweep_other_into_one(local_index: u32, origin: vec2i, low: u32, high: u32, weight: f32) {
-    for (var k = local_index; k < GAS_AREA; k += GAS_TILE * GAS_TILE) {
-        if within(k, low, high) {
-            let by = exchanges(project_cell(origin, k));
-            one[k] = other[k] + sweep_factor(weight, by) * excess_of_other(k, by);
-        }
-    }
-    workgroupBarrier();
-}
-
-// Both sweeps of the way down, from p = 0: leaves p in `other` and b − L p in `one`, over all that a coarse cell may sum.
-fn descend(local_index: u32, origin: vec2i) {
-    for (var k = local_index; k < GAS_AREA; k += GAS_TILE * GAS_TILE) {
-        one[k] = -sweep_factor(GAS_BEFORE_0, exchanges(project_cell(origin, k))) * source[k];
-    }
-    workgroupBarrier();
-    sweep_one_into_other(local_index, origin, 1u, 1u, GAS_BEFORE_1);
-    for (var k = local_index; k < GAS_AREA; k += GAS_TILE * GAS_TILE) {
-        if within(k, 2u, 2u) {
-            one[k] = -excess_of_other(k, exchanges(project_cell(origin, k)));
-        }
-    }
-    workgroupBarrier();
 }
 
 // The coarse cell that an invocation sums: those that begin within the tile are the tile's own. An axis of one cell is not halved.
@@ -312,9 +220,7 @@ fn gas_up(
         source[k] = b[project_index(cell)];
     }
     workgroupBarrier();
-    sweep_one_into_other(local_index, origin, 1u, 1u, GAS_AFTER_0);
-    sweep_other_into_one(local_index, origin, 2u, 2u, GAS_AFTER_1);
-    sweep_one_into_other(local_index, origin, 3u, 3u, GAS_AFTER_2);
+    ascend(local_index, origin);
     let cell = first + vec2i(local.xy);
     if all(cell < level.size) {
         q_out[cell.y * level.size.x + cell.x] = other[(local.y + u32(GAS_UP)) * GAS_SIDE + local.x + u32(GAS_UP)];
@@ -349,9 +255,7 @@ fn gas_up_finest(
         source[k] = divergence(cell);
     }
     workgroupBarrier();
-    sweep_one_into_other(local_index, origin, 1u, 1u, GAS_AFTER_0);
-    sweep_other_into_one(local_index, origin, 2u, 2u, GAS_AFTER_1);
-    sweep_one_into_other(local_index, origin, 3u, 3u, GAS_AFTER_2);
+    ascend(local_index, origin);
     let cell = first + vec2i(local.xy);
     if all(cell < level.size) {
         let index = u32(cell.y * level.size.x + cell.x);

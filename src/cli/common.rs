@@ -130,7 +130,8 @@ pub struct CommonOptions {
     #[arg(long, help_heading = "Scene")]
     displaced_depth: bool,
 
-    /// Eye and target, metres; replaces every camera motion [default: the scene's, which shows the whole plane]
+    /// Eye and target, metres; replaces every camera motion [default: the scene's, which shows the whole plane, or the whole mesh of a
+    /// file]
     #[arg(long, value_name = "EX,EY,EZ,TX,TY,TZ", value_parser = camera, allow_hyphen_values = true, help_heading = "Scene")]
     camera: Option<CameraPlacement>,
 

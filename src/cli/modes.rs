@@ -14,6 +14,7 @@ pub struct ResumeOptions {
     /// field [default: none]
     #[arg(long, value_name = "FILE", help_heading = "Scene")]
     #[arg(conflicts_with_all = ["scene", "seed", "field", "height", "height_range", "text", "font", "albedo", "depth", "mesh"])]
+    #[arg(conflicts_with_all = ["sequence", "sequence_colour", "sequence_rate", "sequence_playback", "sequence_interpolate"])]
     pub replay: Option<PathBuf>,
 
     /// Go on from what --save-state wrote, of the same scene, seed and size [default: none, the scene's start]
@@ -72,9 +73,9 @@ pub struct CaptureOptions {
     #[arg(long, value_name = "N", value_parser = frames, default_value = "1", allow_negative_numbers = true)]
     pub frames: u32,
 
-    /// Time from frame to frame, seconds [default: 1/60]
+    /// Time from frame to frame, seconds; a journal has its own [default: 1/60]
     #[arg(long, value_name = "SECONDS", value_parser = dt, default_value = "0.016666666666666666", hide_default_value = true)]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(allow_negative_numbers = true, conflicts_with = "replay")]
     pub dt: f64,
 
     /// How many frames to run before the first that is written

@@ -175,6 +175,9 @@ fn nonsense_is_refused_in_one_sentence() {
         ("capture --out DIR --export height-pgn", "did you mean `height-png`"),
         ("live --sequence-playback once", "loop, ping-pong and hold"),
         ("live --sequence a --height b", "exclude each other"),
+        ("live --height a --height-range -3e38,3e38", "too far apart"),
+        ("capture --out DIR --replay a --dt 0.1", "exclude each other"),
+        ("stress --replay a --sequence-rate 5", "exclude each other"),
     ];
     let values = [
         ("seed", "-1 1.5 x 18446744073709551616"),

@@ -277,6 +277,7 @@ pub(super) fn height_range(text: &str) -> Result<[f32; 2], String> {
     let range = numbers::<2>(text).map(|range| range.map(|bound| bound as f32));
     match range {
         Some([low, high]) if low < high && (high - low).is_finite() => Ok([low, high]),
+        Some([low, high]) if low < high => Err("the two numbers are too far apart: scale the image down".to_owned()),
         Some(_) => Err("the first number must be less than the second".to_owned()),
         None => Err("it must be two numbers, like 0,1000".to_owned()),
     }

@@ -83,6 +83,28 @@ pub enum BinError {
         /// The most that fit.
         limit: u64,
     },
+    /// The discs themselves would not.
+    #[error(
+        "{discs} discs fall in one frame, more than the {limit} that a buffer of this adapter holds; press fewer, or cut time into \
+         shorter frames"
+    )]
+    TooManyDiscs {
+        /// Number of discs.
+        discs: usize,
+        /// The most that fit.
+        limit: u64,
+    },
+}
+
+impl BinError {
+    /// Refuses a list of discs that is longer than a buffer holds, whatever tiles they touch.
+    ///
+    /// # Errors
+    ///
+    /// It is.
+    pub fn check(discs: usize, limit: u64) -> Result<(), Self> {
+        if discs as u64 > limit { Err(Self::TooManyDiscs { discs, limit }) } else { Ok(()) }
+    }
 }
 
 /// The tiles that some discs touch. Its vectors keep their capacity: a steady state allocates nothing.

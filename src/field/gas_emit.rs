@@ -211,6 +211,8 @@ impl GasEmit {
                 falls.push(of_step[0].0);
             }
         }
+        // Each image of a puff is listed, those that touch no tile too.
+        BinError::check(set.puffs.len(), List::<GasPuff>::limit(gpu))?;
         let mut grown = [
             set.tile_list.reserve(gpu, set.bins.tiles.len()),
             set.member_list.reserve(gpu, set.bins.members.len()),

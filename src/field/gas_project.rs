@@ -108,7 +108,8 @@ impl GasProject {
             let mut constants = tile_constants().to_vec();
             constants.extend(weights.into_iter().zip(BEFORE.into_iter().chain(AFTER)));
             constants.extend([("GAS_LAST", f64::from(u8::from(last))), ("GAS_LEAD", LEAD), ("GAS_HEADER", f64::from(HEADER))]);
-            Kernel::new(gpu, "gas project", &["field/gas_project"], entry, &constants, &[None, Some(layout)])
+            let parts = ["field/gas_project_smooth", "field/gas_project"];
+            Kernel::new(gpu, "gas project", &parts, entry, &constants, &[None, Some(layout)])
         };
         Ok(Self {
             down_finest: kernel("gas_down_finest", &down_finest_layout, false)?,

@@ -11,7 +11,7 @@ use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use wgpu::{StorageTextureAccess, TextureFormat};
 
 use super::bins::BinError;
-use super::source::{Heights, Source, SourceInput, State};
+use super::source::{Heights, Source, SourceInput};
 use super::{Dirty, LAYER, roles};
 use crate::gpu::kernel::workgroups;
 use crate::gpu::{Binding, BindingLayout, Contract, Gpu, Kernel, Recorder, Role, ShaderError, Texture};
@@ -598,9 +598,6 @@ impl Source for NoiseSource {
         self.set.forget();
     }
 
-    // What is shown follows from the scene of each frame: nothing is taken over ahead of it.
-    fn set_scene(&mut self, _gpu: &Gpu, _scene: &Scene) {}
-
     fn reload(&mut self, gpu: &Gpu) -> Result<(), ShaderError> {
         self.patterns = Patterns::new(gpu)?;
         self.set.forget();
@@ -621,11 +618,6 @@ impl Source for NoiseSource {
 
     fn heights(&self) -> Heights<'_> {
         Heights { views: [&self.set.heights.view; 2], current: 0 }
-    }
-
-    // A function of time alone: there is nothing to remember.
-    fn state(&self) -> State<'_> {
-        State::default()
     }
 
     fn restore(&mut self, _numbers: &[u64]) {

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::bins::BinError;
-use super::source::{Heights, Source, SourceInput, State};
+use super::source::{Heights, Source, SourceInput};
 use super::{Dirty, LAYER, roles};
 use crate::gpu::{Contract, Gpu, Recorder, Role, ShaderError, Texture};
 use crate::scene::{Between, Layer, LayerBlend, Scene};
@@ -91,9 +91,6 @@ impl Source for SequenceSource {
         self.set.forget();
     }
 
-    // Which images a moment shows is for whoever reads them to know.
-    fn set_scene(&mut self, _gpu: &Gpu, _scene: &Scene) {}
-
     fn reload(&mut self, _gpu: &Gpu) -> Result<(), ShaderError> {
         Ok(())
     }
@@ -109,11 +106,6 @@ impl Source for SequenceSource {
 
     fn heights(&self) -> Heights<'_> {
         Heights { views: [&self.set.heights.view; 2], current: 0 }
-    }
-
-    // A function of time alone: there is nothing to remember.
-    fn state(&self) -> State<'_> {
-        State::default()
     }
 
     fn restore(&mut self, _numbers: &[u64]) {

@@ -356,23 +356,24 @@ impl ShallowWater {
             ("SHALLOW_WATER_SEA", Border::Sea as u32),
             ("SHALLOW_WATER_PERIODIC", Border::Periodic as u32),
         ];
-        let kernel = |stem: &str, entry_point, own: &[(&'static str, u32)], layout| {
+        let kernel = |stems: &[&str], entry_point, own: &[(&'static str, u32)], layout| {
             let constants: Vec<_> = shared.iter().chain(own).map(|(name, value)| (*name, f64::from(*value))).collect();
-            let parts = ["common/shallow_water", stem];
+            let parts = [&["common/shallow_water"], stems].concat();
             Kernel::new(gpu, "shallow water", &parts, entry_point, &constants, &[None, Some(layout)])
         };
         let cells = [("SHALLOW_WATER_CELLS", Self::SPAN * Self::SPAN)];
         let lanes = [("SHALLOW_WATER_LANES", Self::LANES)];
-        let plan = |entry_point| kernel("field/shallow_water_plan", entry_point, &[], &layouts.plan);
-        let disturb = "field/shallow_water_disturb";
+        let plan = |entry_point| kernel(&["field/shallow_water_plan"], entry_point, &[], &layouts.plan);
+        let disturb = &["field/shallow_water_disturb"];
+        let step = &["field/shallow_water_flux", "field/shallow_water"];
         let kernels = Kernels {
             fill: kernel(disturb, "shallow_water_fill", &lanes, &layouts.fill)?,
             disturb: kernel(disturb, "shallow_water_disturb", &lanes, &layouts.disturb)?,
             begin: plan("shallow_water_begin")?,
             plan: plan("shallow_water_plan")?,
-            step: kernel("field/shallow_water", "shallow_water_step", &cells, &layouts.step)?,
+            step: kernel(step, "shallow_water_step", &cells, &layouts.step)?,
             settle: plan("shallow_water_settle")?,
-            publish: kernel("field/shallow_water_publish", "shallow_water_publish", &[], &layouts.publish)?,
+            publish: kernel(&["field/shallow_water_publish"], "shallow_water_publish", &[], &layouts.publish)?,
         };
         Ok(Self { kernels, layouts })
     }

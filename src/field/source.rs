@@ -60,8 +60,8 @@ pub trait Source {
     /// Puts it back to its start.
     fn reset(&mut self, gpu: &Gpu, scene: &Scene);
 
-    /// Takes over a scene's settings, which leave its textures as they are.
-    fn set_scene(&mut self, gpu: &Gpu, scene: &Scene);
+    /// Takes over a scene's settings, which leave its textures as they are. What follows from the scene of each frame needs nothing.
+    fn set_scene(&mut self, _gpu: &Gpu, _scene: &Scene) {}
 
     /// Builds its kernels anew from the device's present shaders. What fails leaves it as it was.
     ///
@@ -93,8 +93,10 @@ pub trait Source {
         None
     }
 
-    /// All that it remembers.
-    fn state(&self) -> State<'_>;
+    /// All that it remembers. A function of time alone has nothing to.
+    fn state(&self) -> State<'_> {
+        State::default()
+    }
 
     /// Takes over the numbers of a [`State`]; its textures and buffers have been overwritten already.
     fn restore(&mut self, numbers: &[u64]);

@@ -289,7 +289,18 @@ impl Stamps {
     /// They touch more tiles than a buffer of the adapter holds.
     pub fn prepare(&self, gpu: &Gpu, set: &mut StampSet, parts: &[&[Stamp]]) -> Result<Pressing, BinError> {
         let limit = List::<Member>::limit(gpu).min(List::<Tile>::limit(gpu));
-        let mut pressing = Pressing { kernel: Kind::Plain, parts: Vec::new(), dirty: Vec::new() };
+        let stamps = || parts.iter().copied().flatten();
+        let kernel = match () {
+            () if stamps().all(Stamp::is_plain) => Kind::Plain,
+            () if stamps().any(Stamp::has_form) => Kind::Any,
+            () => Kind::Round,
+        };
+        let records = List::<StampRecord>::limit(gpu);
+        BinError::check(
+            stamps().count(),
+            if kernel == Kind::Plain { records } else { List::<StampExtra>::limit(gpu).min(records) },
+        )?;
+        let mut pressing = Pressing { kernel, parts: Vec::new(), dirty: Vec::new() };
         set.bins.clear();
         set.records.clear();
         set.extras.clear();
@@ -298,12 +309,6 @@ impl Stamps {
             pressing.parts.push([batch.first_tile, batch.tile_count]);
             pressing.dirty.push(batch.dirty);
         }
-        let stamps = || parts.iter().copied().flatten();
-        pressing.kernel = match () {
-            () if stamps().all(Stamp::is_plain) => Kind::Plain,
-            () if stamps().any(Stamp::has_form) => Kind::Any,
-            () => Kind::Round,
-        };
         if !set.bins.tiles.is_empty() {
             set.records.extend(stamps().map(StampRecord::from));
             if pressing.kernel != Kind::Plain {

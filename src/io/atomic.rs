@@ -1,4 +1,7 @@
 //! A file is written whole or not at all: beside its place first, then renamed into it.
+//!
+//! What is no file, as `/dev/stdout`, `/dev/null` or a named pipe, is never replaced by one: it is written to. A symbolic link stays
+//! one, and what it points to is replaced.
 
 use std::fs::File;
 use std::io::{BufWriter, ErrorKind, Write as _};
@@ -53,14 +56,57 @@ pub fn write(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::i
 ///
 /// No file can be made there.
 pub fn check(path: &Path) -> Result<(), WriteError> {
-    beside(path).map(drop).map_err(|error| WriteError::new(path, error))
+    // A pipe would take being opened and closed for all that is ever written to it.
+    if is_special(path) { Ok(()) } else { beside(path).map(drop).map_err(|error| WriteError::new(path, error)) }
 }
 
 /// A file that is being written beside its place, over a longer time; it vanishes unless it is persisted.
 #[derive(Debug)]
 pub struct Partial {
-    file: tempfile::NamedTempFile,
+    place: Place,
     path: PathBuf,
+}
+
+/// Where bytes go until they are whole.
+#[derive(Debug)]
+enum Place {
+    /// Beside the file that they replace.
+    Beside(tempfile::NamedTempFile),
+    /// Into what is no file, at once.
+    Into(File),
+}
+
+impl Place {
+    fn of(path: &Path) -> std::io::Result<Self> {
+        if is_special(path) { File::options().write(true).open(path).map(Self::Into) } else { beside(path).map(Self::Beside) }
+    }
+
+    fn file(&mut self) -> &mut File {
+        match self {
+            Self::Beside(file) => file.as_file_mut(),
+            Self::Into(file) => file,
+        }
+    }
+
+    fn persist(self, path: &Path) -> std::io::Result<()> {
+        match self {
+            Self::Beside(file) => file.persist(linked(path)).map(drop).map_err(|error| error.error),
+            Self::Into(_) => Ok(()),
+        }
+    }
+}
+
+/// Whether something is there that is neither a file nor a directory.
+fn is_special(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
+}
+
+/// What a symbolic link points to; any other path as it is.
+fn linked(path: &Path) -> PathBuf {
+    match std::fs::symlink_metadata(path) {
+        Ok(metadata) if metadata.is_symlink() => path.canonicalize().unwrap_or_else(|_| path.to_owned()),
+        _ => path.to_owned(),
+    }
 }
 
 impl Partial {
@@ -70,8 +116,8 @@ impl Partial {
     ///
     /// No file can be made there.
     pub fn beside(path: &Path) -> Result<Self, WriteError> {
-        let file = beside(path).map_err(|error| WriteError::new(path, error))?;
-        Ok(Self { file, path: path.to_owned() })
+        let place = Place::of(path).map_err(|error| WriteError::new(path, error))?;
+        Ok(Self { place, path: path.to_owned() })
     }
 
     /// Puts it in its place.
@@ -80,27 +126,27 @@ impl Partial {
     ///
     /// It cannot be renamed; then nothing is left of it, and what was in its place stays.
     pub fn persist(self) -> Result<(), WriteError> {
-        self.file.persist(&self.path).map(drop).map_err(|error| WriteError::new(self.path, error.error))
+        self.place.persist(&self.path).map_err(|error| WriteError::new(self.path, error))
     }
 }
 
 impl std::io::Write for Partial {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.file.write(bytes)
+        self.place.file().write(bytes)
     }
 
     fn flush(&mut self) -> std::io::Result<()> {
-        self.file.flush()
+        self.place.file().flush()
     }
 }
 
 fn write_inner(path: &Path, fill: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>) -> std::io::Result<()> {
-    let mut file = beside(path)?;
-    let mut writer = BufWriter::with_capacity(1 << 16, file.as_file_mut());
+    let mut place = Place::of(path)?;
+    let mut writer = BufWriter::with_capacity(1 << 16, place.file());
     fill(&mut writer)?;
     writer.flush()?;
     drop(writer);
-    file.persist(path).map(drop).map_err(|error| error.error)
+    place.persist(path)
 }
 
 /// An empty file beside the place of another, which vanishes when it is dropped.
@@ -108,6 +154,7 @@ fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
     if path.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
     }
+    let path = linked(path);
     let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     // Named after its place: should the machine fail meanwhile, the next run knows the remains as its own and removes them.
     let mut prefix = path.file_name().unwrap_or_default().to_os_string();
@@ -169,6 +216,40 @@ mod tests {
         let error = write(directory.path(), |_| Ok(())).unwrap_err().to_string();
         assert!(error.contains("it is a directory"), "{error}");
         assert_eq!(names(directory.path()), ["file"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_written_to_and_a_link_stays_one() {
+        let directory = tempfile::tempdir().unwrap();
+        let at = |name| directory.path().join(name);
+        let pipe = at("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        check(&pipe).unwrap();
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::read(pipe).unwrap()
+        });
+        write(&pipe, |file| file.write_all(b"through")).unwrap();
+        assert_eq!(reader.join().unwrap(), b"through");
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::read(pipe).unwrap()
+        });
+        let mut partial = Partial::beside(&pipe).unwrap();
+        partial.write_all(b"line").unwrap();
+        partial.persist().unwrap();
+        assert_eq!(reader.join().unwrap(), b"line");
+        assert!(is_special(&pipe), "a file took the pipe's place");
+
+        std::fs::create_dir(at("elsewhere")).unwrap();
+        std::fs::write(at("elsewhere/target"), "before").unwrap();
+        std::os::unix::fs::symlink("elsewhere/target", at("link")).unwrap();
+        write(&at("link"), |file| file.write_all(b"after")).unwrap();
+        assert!(std::fs::symlink_metadata(at("link")).unwrap().is_symlink());
+        assert_eq!(std::fs::read(at("elsewhere/target")).unwrap(), b"after");
+        assert_eq!(names(directory.path()), ["elsewhere", "link", "pipe"]);
+        assert_eq!(names(&at("elsewhere")), ["target"]);
     }
 
     #[cfg(unix)]

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
+
 use super::colour_image;
 use super::font::{self, FontError};
 use super::height_image::{self, HeightImage, ImageError};
@@ -248,7 +250,8 @@ pub fn embedded(name: &str) -> Option<Scene> {
 }
 
 /// Loads a scene by name, or from a file: whatever ends in `.toml` or has a path separator in it. Then applies the overrides, checks
-/// every value, reads its image, and moves a camera of the program's own so that it shows the whole plane in a picture of this size.
+/// every value, reads its image, and moves a camera of the program's own so that it shows the whole plane, or the mesh
+/// of a file, in a picture of this size.
 ///
 /// # Errors
 ///
@@ -283,6 +286,21 @@ pub fn load_whole(mut scene: Scene, overrides: &SceneOverrides, image_size: [u32
     )
 }
 
+impl LoadedScene {
+    /// Middle and radius of a ball round a mesh that a file puts where it likes, metres; none where cameras may not go.
+    fn ball_of_file(&self) -> Option<(DVec3, f64)> {
+        let settings = self.scene.mesh.as_ref()?;
+        if settings.radius_metres.is_some() || matches!(settings.source, MeshSource::Shape(_)) {
+            return None;
+        }
+        let mesh = self.mesh.as_ref()?;
+        let middle = mesh.bounds().centre().as_dvec3();
+        let radius = mesh.vertices.iter().map(|vertex| vertex.position.as_dvec3().distance(middle)).fold(0.0, f64::max);
+        // A camera stands at most a million metres from the origin, and so far from a ball, ten times its radius, as a lens needs.
+        (middle.length() + 10.0 * radius < 1e6).then_some((middle, radius))
+    }
+}
+
 /// Checks a scene and reads its files.
 fn prepare(
     which: &str,
@@ -305,7 +323,11 @@ fn prepare(
     }
     // A camera that someone chose stays where it is.
     if overrides.camera.is_none() && !given.camera {
-        loaded.scene.camera = loaded.scene.framing(f64::from(image_size[0]) / f64::from(image_size[1]));
+        let aspect = f64::from(image_size[0]) / f64::from(image_size[1]);
+        loaded.scene.camera = match loaded.ball_of_file() {
+            Some((middle, radius)) => loaded.scene.framing_of(middle, radius, aspect),
+            None => loaded.scene.framing(aspect),
+        };
     }
     Ok(loaded)
 }

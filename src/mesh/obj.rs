@@ -19,6 +19,9 @@ type Corner = (u32, u32, Option<u32>);
 /// cos 45°.
 const CREASE_COSINE: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
+/// What some editors write before UTF-8; it is no part of the first line.
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
 #[derive(Default)]
 struct Reader {
     positions: Vec<Vec3>,
@@ -39,7 +42,7 @@ struct Reader {
 pub fn parse(name: &str, bytes: &[u8]) -> Result<Mesh, Unfit> {
     let mut reader = Reader::default();
     // Names may be in any encoding; all that counts is ASCII.
-    let text = String::from_utf8_lossy(bytes);
+    let text = String::from_utf8_lossy(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes));
     let mut lines = text.lines().enumerate();
     while let Some((number, line)) = lines.next() {
         let mut line = line.trim_end().to_owned();

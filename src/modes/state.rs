@@ -62,7 +62,18 @@ pub fn save(gpu: &Gpu, frame: &Frame, clock: &Clock, path: &Path) -> Result<(), 
 pub fn read(path: &Path, scene: &Scene) -> Result<SavedState, ModeError> {
     let state = state_file::read(path)?;
     let saved = &state.scene;
-    let problem = if saved.field.size != scene.field.size {
+    let other = |key: &str| {
+        Some(format!(
+            "is of the scene {}, whose `{key}` is another than in this run's: name the same scene and settings",
+            saved.name
+        ))
+    };
+    // Another scene first: its seed and size are of no use then.
+    let problem = if let Some(key) = differing(saved, scene) {
+        other(&key)
+    } else if saved.field.addressing != scene.field.addressing {
+        other("field.addressing")
+    } else if saved.field.size != scene.field.size {
         let [width, height] = saved.field.size;
         let [here_width, here_height] = scene.field.size;
         Some(format!(
@@ -71,12 +82,7 @@ pub fn read(path: &Path, scene: &Scene) -> Result<SavedState, ModeError> {
     } else if saved.seed != scene.seed {
         Some(format!("is of seed {}, and this run's is {}: say --seed {}", saved.seed, scene.seed, saved.seed))
     } else {
-        differing(saved, scene).map(|key| {
-            format!(
-                "is of the scene {}, whose `{key}` is another than in this run's: name the same scene and settings",
-                saved.name
-            )
-        })
+        None
     };
     match problem {
         Some(problem) => Err(StateFileError::Unfit { path: path.to_owned(), problem }.into()),

@@ -7,6 +7,9 @@ use super::{Camera, Plane, Scene};
 /// How much of the picture's half width and height the plane's corners may take: a little air remains around it.
 const MARGIN: f64 = 0.98;
 
+/// No nearer to the middle of what is framed: some times the near plane's distance.
+const NEAREST_METRES: f64 = 0.05;
+
 impl Plane {
     /// Extent along x and z under a field of this size, metres: texels are square.
     pub fn size_metres(&self, field_size: [u32; 2]) -> [f64; 2] {
@@ -65,6 +68,18 @@ impl Scene {
             return camera.clone();
         }
         Camera { eye: (target + from_target.normalize() * distance).to_array(), ..camera.clone() }
+    }
+}
+
+impl Scene {
+    /// The scene's camera before a ball, from the direction that it looks from, as near as shows the whole of it: a mesh of a file may lie
+    /// anywhere, and be of any size.
+    pub fn framing_of(&self, middle: DVec3, radius: f64, aspect: f64) -> Camera {
+        let camera = &self.camera;
+        let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan() * MARGIN;
+        let away = (DVec3::from(camera.eye) - DVec3::from(camera.target)).normalize();
+        let distance = distance_to_see(DVec3::ZERO, radius, away, [half_height * aspect, half_height]).max(NEAREST_METRES);
+        Camera { eye: (middle + away * distance).to_array(), target: middle.to_array(), ..camera.clone() }
     }
 }
 
@@ -144,6 +159,23 @@ mod tests {
                 .fold(0.0, f64::max);
             assert!(reach <= MARGIN + 1e-9 && reach > 0.9, "{aspect} {fov}: {reach}");
         }
+    }
+
+    #[test]
+    fn what_lies_elsewhere_is_looked_at() {
+        let scene = Scene::default();
+        for (middle, radius) in [(DVec3::new(500.0, -3.0, 20.0), 40.0), (DVec3::new(0.0, 1.0, 0.0), 0.1)] {
+            let camera = scene.framing_of(middle, radius, 1.6);
+            let from_middle = DVec3::from(camera.eye) - middle;
+            assert_eq!(DVec3::from(camera.target), middle);
+            let away = DVec3::from(scene.camera.eye) - DVec3::from(scene.camera.target);
+            assert!(from_middle.normalize().dot(away.normalize()) > 1.0 - 1e-12);
+            // The picture's upper and lower side touch the ball, but for the margin.
+            let tangent = (camera.vertical_fov_degrees.to_radians() / 2.0).tan() * MARGIN;
+            assert!((from_middle.length() * tangent.atan().sin() / radius - 1.0).abs() < 1e-9);
+        }
+        // A speck is not looked at from within the near plane.
+        assert!(scene.framing_of(DVec3::ZERO, 1e-9, 1.6).eye.iter().any(|coordinate| coordinate.abs() > 0.02));
     }
 
     #[test]

@@ -73,6 +73,13 @@ fn a_state_of_another_run_is_refused() {
     load(&["--scene", "ripples", "--field", "64", "--seed", "9"], "is of seed");
     load(&["--scene", "bullet-wall", "--field", "64", "--seed", "1"], "is of the scene ripples");
     load(&["--scene", "ripples", "--field", "64", "--depth", "0.3"], "`plane` is another");
+    // To follow advice about its seed and size would not help.
+    load(&["--scene", "bullet-wall", "--field", "32"], "is of the scene ripples");
+    let ripples = std::fs::read_to_string("scenes/ripples.toml").expect("it is in the repository");
+    let other = path_in(&directory, "other.toml");
+    std::fs::write(&other, ripples.replace("\"clamp\"", "\"wrap\"")).expect("it can be written");
+    let other: &'static str = other.leak();
+    load(&["--scene", other, "--field", "64"], "`field.addressing` is another");
     // What is looked at otherwise is the same field.
     capture(&out, &["--scene", "ripples", "--field", "64", "--load-state", &state, "--technique", "pom", "--shadow", "none"]);
 
@@ -108,7 +115,15 @@ fn a_journal_that_is_not_whole_is_refused() {
 
 #[test]
 fn what_a_journal_says_no_flag_may_contradict() {
-    for flag in [["--scene", "relief"], ["--seed", "3"], ["--field", "64"], ["--depth", "0.2"], ["--load-state", "state"]] {
+    let series = [
+        ["--sequence", "depths"],
+        ["--sequence-colour", "colours"],
+        ["--sequence-rate", "5"],
+        ["--sequence-playback", "loop"],
+        ["--sequence-interpolate", "on"],
+    ];
+    let field = [["--scene", "relief"], ["--seed", "3"], ["--field", "64"], ["--depth", "0.2"], ["--load-state", "state"]];
+    for flag in field.into_iter().chain(series).chain([["--dt", "0.1"]]) {
         let output = rilievo(&[&["capture", "--out", "out", "--replay", "journal"][..], &flag[..]].concat());
         assert_eq!(output.status.code(), Some(2), "{flag:?}: {}", String::from_utf8_lossy(&output.stderr));
     }

@@ -3,13 +3,15 @@
 use rilievo::field::Field;
 use rilievo::field::cool::{Cool, EVERY_MOMENTS, every_seconds};
 use rilievo::field::groundwork::Groundwork;
-use rilievo::field::material::{GLOWING_MOMENTS, MOMENTS_PER_FALL, Marks, moment};
+use rilievo::field::material::{GLOWING_MOMENTS, MOMENTS, MOMENTS_PER_FALL, Marks, moment};
 use rilievo::field::stamp::{Profile, Stamp};
+use rilievo::gpu::{Binding, BindingLayout, Kernel, Readback};
 use rilievo::reference;
 use rilievo::scene::{Addressing, Explosions, Scene};
 use rilievo::stroke::Strokes;
 
-use crate::support::gpu::{gpu, read, run};
+use crate::support::gpu::{gpu, own_gpu, read, run, wait_for};
+use crate::support::tolerances::GLOW;
 
 #[test]
 fn the_pass_equals_the_reference() {
@@ -31,6 +33,62 @@ fn the_pass_equals_the_reference() {
             let expected = reference::cool::cool(Marks::from_bits(*before), now);
             assert_eq!(Marks::from_bits(*after), expected, "at {seconds} s");
         }
+    }
+}
+
+/// What a pixel sees of every heat, at some moments.
+const GLOWS: &str = "
+@group(1) @binding(0) var<storage, read> moments: array<f32>;
+@group(1) @binding(1) var<storage, read_write> glows: array<f32>;
+
+@compute @workgroup_size(64)
+fn glows_of_heats(@builtin(global_invocation_id) id: vec3u) {
+    glows[id.y * 1024u + id.x] = material_glow(id.x, moments[id.y]);
+}
+";
+
+#[test]
+fn what_is_seen_of_a_heat_equals_the_reference() {
+    let Some(mut gpu) = own_gpu() else { return };
+    gpu.shaders.replace("test/glows", GLOWS.to_owned());
+    let gpu = &gpu;
+    // The clock's start, its end, and between moments: a heat that rounding puts into the future glows as one of now.
+    let moments = [0.0_f32, 0.4, 333.6, 800.5, 1022.0, 1022.9];
+    let layout = BindingLayout::new(gpu, "glows", wgpu::ShaderStages::COMPUTE, &[Binding::Read, Binding::ReadWrite]);
+    let constants = [
+        ("MATERIAL_MOMENTS", f64::from(MOMENTS)),
+        ("MATERIAL_MOMENTS_PER_FALL", MOMENTS_PER_FALL),
+        ("MATERIAL_GLOWING_MOMENTS", GLOWING_MOMENTS),
+    ];
+    let parts = ["common/material", "test/glows"];
+    let kernel = Kernel::new(gpu, "glows", &parts, "glows_of_heats", &constants, &[None, Some(&layout)]).expect("it compiles");
+    let buffer = |values: usize| {
+        gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("glows"),
+            size: 4 * values as u64,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    };
+    let (given, found) = (buffer(moments.len()), buffer(1024 * moments.len()));
+    gpu.queue.write_buffer(&given, 0, bytemuck::cast_slice(&moments));
+    let group = layout.bind(gpu, &[given.as_entire_binding(), found.as_entire_binding()]);
+    let readback = run(gpu, |recorder| {
+        recorder.compute("glows", |pass| {
+            pass.set_pipeline(&kernel.pipeline);
+            pass.set_bind_group(1, &group, &[]);
+            pass.dispatch_workgroups(1024 / 64, moments.len() as u32, 1);
+        });
+        Readback::record_buffer(gpu, recorder.encoder, &found, found.size())
+    });
+    readback.start();
+    let glows: Vec<f32> = bytemuck::pod_collect_to_vec(&wait_for(gpu, &readback));
+    for (row, &moment) in glows.chunks_exact(1024).zip(&moments) {
+        for (heat, &glow) in (0..).zip(row) {
+            let expected = reference::cool::glow(heat, f64::from(moment));
+            assert!((f64::from(glow) - expected).abs() <= GLOW, "heat {heat} at {moment}: {glow} for {expected}");
+        }
+        assert!(row.iter().any(|&glow| glow > 0.9), "all is cold at {moment}");
     }
 }
 

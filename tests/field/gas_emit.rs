@@ -1,11 +1,14 @@
 //! Emission of the gas: its shader against its reference, and the sums of what it adds.
 
-use rilievo::field::gas_emit::Puff;
+use rilievo::field::bins::BinError;
+use rilievo::field::gas_emit::{GasPuff, Puff};
+use rilievo::gpu::List;
 use rilievo::reference::gas::{Grid, State};
 use rilievo::reference::gas_emit::{Emission, emit};
 use rilievo::stroke::{Random, Stream};
 
 use crate::support::gas::{SHAPES, Tank, apart, calm, stirred};
+use crate::support::gpu::run;
 use crate::support::tolerances::*;
 
 fn puffs(grid: &Grid, count: usize) -> Vec<Emission> {
@@ -71,6 +74,18 @@ fn what_is_emitted_adds_up_wherever_it_falls() {
             assert!(all > 1.0);
         }
     }
+}
+
+#[test]
+fn more_puffs_than_a_buffer_holds_are_refused() {
+    let (size, periodic) = ([16, 16], [true, true]);
+    let Some(mut tank) = Tank::new(size, periodic, calm(size[1]), 1) else { return };
+    // Each in nine images, of which few touch a tile.
+    let count = List::<GasPuff>::limit(tank.gpu) as usize / 9 + 1;
+    let emission = Emission { radius: 0.5, ..puffs(&Grid { size, periodic }, 1)[0] };
+    let emissions = vec![(0, emission); count];
+    let error = run(tank.gpu, |recorder| tank.gas.record(recorder, &mut tank.set, 1, &emissions)).expect_err("they are too many");
+    assert!(matches!(error, BinError::TooManyDiscs { discs, .. } if discs == 9 * count), "{error}");
 }
 
 #[test]

@@ -6,11 +6,11 @@ use rilievo::camera::Camera;
 use rilievo::clock::Tick;
 use rilievo::field::bins::BinError;
 use rilievo::field::material::Marks;
-use rilievo::field::stamp::{Blend, CRATER_RIM, ImageForm, Profile, Stamp, StampImage, StampSet, Stamps};
+use rilievo::field::stamp::{Blend, CRATER_RIM, ImageForm, Profile, Stamp, StampExtra, StampImage, StampSet, Stamps};
 use rilievo::field::wave::Waves;
 use rilievo::field::{Dirty, Field};
 use rilievo::frame::{Frame, FrameInput, Start};
-use rilievo::gpu::{Gpu, Recorder};
+use rilievo::gpu::{Gpu, List, Recorder};
 use rilievo::modes::capture::{PICTURE_FORMAT, Picture};
 use rilievo::reference::stamp::{self, Layers, from_segment};
 use rilievo::scene::{self, Addressing, Boundary, Scene};
@@ -496,6 +496,13 @@ fn ten_thousand_fit_and_what_does_not_fit_says_so() {
         run(wall.gpu, |recorder| wall.stamps.record(recorder, &mut wall.set, &huge)).expect_err("no buffer is that large");
     assert!(matches!(error, BinError::TooMany { discs: 3, .. }));
     assert!(error.to_string().ends_with("press fewer or smaller ones"), "{error}");
+    // What leaves soot takes more room than its place in a tile's list.
+    let count = List::<StampExtra>::limit(wall.gpu) as usize + 1;
+    let sooty = Stamp { centre: [512.0, 512.0], radius: 0.1, soot: 1.0, ..Stamp::default() };
+    let error =
+        run(wall.gpu, |recorder| wall.stamps.record(recorder, &mut wall.set, &vec![sooty; count])).expect_err("nor so long");
+    assert!(matches!(error, BinError::TooManyDiscs { discs, .. } if discs == count), "{error}");
+    assert!(error.to_string().contains("fall in one frame"), "{error}");
     assert_eq!(before, wall.relief());
 }
 

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use rilievo::io::scene_file::{CameraPlacement, EMBEDDED, FieldSize, SceneOverrides, embedded, list, load};
+use rilievo::mesh::{MeshSource, Shape};
 use rilievo::scene::{Base, Boundary, PomCounts, PyramidLeaf, Scene, Text};
 use rilievo::surface::{Albedo, Shadow, Technique};
 
@@ -24,6 +25,27 @@ fn refusal(which: &str) -> String {
     let sentence = load(which, &SceneOverrides::default(), PICTURE).expect_err("it is unfit").to_string();
     assert!(!sentence.contains('\n'), "{sentence}");
     sentence
+}
+
+#[test]
+fn a_mesh_is_seen_wherever_its_file_puts_it() {
+    let directory = temporary();
+    let face = "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n";
+    let path = write(directory.path(), "far.obj", &format!("v 500 7 -30\nv 540 7 -30\nv 540 7 -60\n{face}"));
+    let mesh = Some(MeshSource::File(path.into()));
+    let overrides = SceneOverrides { mesh: mesh.clone(), ..SceneOverrides::default() };
+    let camera = load("relief", &overrides, PICTURE).expect("it is sound").scene.camera;
+    // Its box's middle, from where half its diagonal of 50 m fits 45°.
+    assert_eq!(camera.target, [520.0, 7.0, -45.0]);
+    let distance = (0..3).map(|axis| (camera.eye[axis] - camera.target[axis]).powi(2)).sum::<f64>().sqrt();
+    assert!((distance * 22.5_f64.to_radians().sin() / 25.0 - 1.0).abs() < 0.03, "{distance} m");
+    // A camera that someone chose stays.
+    let chosen = CameraPlacement { eye: [0.0, 1.0, 1.0], target: [0.0; 3] };
+    let overrides = SceneOverrides { mesh, camera: Some(chosen), ..SceneOverrides::default() };
+    assert_eq!(load("relief", &overrides, PICTURE).expect("it is sound").scene.camera.target, chosen.target);
+    // The program's own shapes stand where the scenes look.
+    let shape = SceneOverrides { mesh: Some(MeshSource::Shape(Shape::Torus)), ..SceneOverrides::default() };
+    assert_eq!(load("relief", &shape, PICTURE).expect("it is sound").scene.camera.target, [0.0, -0.04, 0.02]);
 }
 
 #[test]

@@ -38,6 +38,9 @@ fn a_square_is_read() {
         assert_eq!(mesh.parts, [Part { material: String::new(), triangles: 0..2 }]);
         assert_eq!(mesh.skin, None);
     }
+    // Some editors write a byte order mark before the first position.
+    let (_, positions) = SQUARE.split_once("front\n").unwrap();
+    assert_eq!(parse(&format!("\u{feff}{positions}f 1/1 2/2 3/3 4/4")), square("f 1/1 2/2 3/3 4/4"));
 }
 
 /// Names in another encoding do not matter.

@@ -67,6 +67,19 @@ fn exact_is_where_the_reference_is_and_approximations_are_not() {
 }
 
 #[test]
+fn the_reference_speaks_of_the_bare_plane_alone() {
+    if gpu().is_none() {
+        return;
+    }
+    for other in [&["--mesh", "box"][..], &["--mesh", "sphere"], &["--shell"], &["--mesh", "torus", "--shell"]] {
+        let reference = ["compare", "--truth", "reference", "--techniques", "exact", "--frames", "1"];
+        let output = rilievo(&[&reference[..], &SMALL, other].concat());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(1) && told.contains("knows the bare plane alone"), "{other:?}: {told}");
+    }
+}
+
+#[test]
 fn more_samples_make_a_smaller_error_and_the_curve_shows_it() {
     if gpu().is_none() {
         return;

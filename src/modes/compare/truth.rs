@@ -12,6 +12,9 @@ use crate::surface::{Stage, Technique};
 
 /// Whether the specification knows what this scene shows: the bare plane.
 pub fn knows(scene: &Scene) -> bool {
+    if scene.mesh.is_some() {
+        return false;
+    }
     let mut scene = scene.clone();
     // Depth changes nothing where nothing else is seen.
     (scene.trace.technique, scene.trace.displaced_depth) = (Technique::Exact, false);
