@@ -11,7 +11,7 @@
 //!             │ sources ├───────►│ compose ├───┬───►│ normals ├────────┐
 //!             └────▲────┘        └────▲────┘   │    └─────────┘        ▼
 //!             ┌────┴────┐ relief      │        │    ┌─────────┐ bounds ┌─────────┐ radiance ┌─────────┐
-//!             │  stamp  ├─────────────┘        └───►│ pyramid ├───────►│ surface ├─────────►│ present ├─► window, files, numbers
+//!             │  stamp  ├─────────────┘        └───►│ bounds  ├───────►│ surface ├─────────►│ present ├─► window, files, numbers
 //!             └─────────┘                           └─────────┘        └─────────┘          └─────────┘
 //! ```
 //!

@@ -393,39 +393,45 @@ fn soft_borders_follow_the_lights_disc() {
     let camera = Camera::look_at(DVec3::new(0.7, 1.3, 1.5), DVec3::ZERO, 0.9, 0.01);
     let (mut scene, fields) = shelter(Shadow::Cone);
     scene.reliefs.truncate(1);
-    (scene.light.azimuth_degrees, scene.light.elevation_degrees, scene.light.half_angle_degrees) = (250.0, 35.0, 4.0);
-    let toward = view::light_direction(&scene, 0.0);
-    let across = toward.cross(DVec3::Y).normalize();
-    let raised = across.cross(toward);
-    let radius = f64::from(scene.light.half_angle_degrees).to_radians().tan();
-    let (channels, _) = seen_from_start(gpu, &start_of(&scene, &fields[0], &fields[1..2]), &camera, SIZE);
-    let wall = Truth { placement: scene.reliefs[0].placement(), plane: scene.reliefs[0].plane.clone(), field: &fields[1] };
-    let half = wall.plane.size_metres(wall.field.size).map(|metres| 0.5 * metres);
-    let (mut within, mut worst, mut corner) = (0, 0.0_f64, 0.0_f64);
-    for channel in channels.iter().filter(|channel| channel.steps >= 0.0 && channel.position[1] < -0.049) {
-        let position = DVec3::from(channel.position.map(f64::from));
-        let points = 2_000;
-        let open = (0..points).filter(|&i| {
-            let (distance, angle) = (((f64::from(i) + 0.5) / f64::from(points)).sqrt(), 2.399_963 * f64::from(i));
-            let aside = radius * distance * (angle.cos() * across + angle.sin() * raised);
-            !reliefs::hides(&wall.placement, half, 0.04, position, (toward + aside).normalize())
-        });
-        let expected = open.count() as f64 / f64::from(points);
-        let error = (f64::from(channel.visibility) - expected).abs();
-        // How far along the wall the centre's ray meets it, within a penumbra of a side border: there two borders meet.
-        let (here, way) = (wall.placement.local(position), wall.placement.turned(toward));
-        let at = here - here.y / way.y * way;
-        let soft = 0.1;
-        let is_corner = (at.x.abs() - half[0]).abs() < soft && (at.z.abs() - half[1]).abs() < soft;
-        if is_corner {
-            corner = corner.max(error);
-        } else {
-            worst = worst.max(error);
+    scene.light.half_angle_degrees = 4.0;
+    let (mut within, mut sides, mut worst, mut corner) = (0, 0, 0.0_f64, 0.0_f64);
+    // From ahead of the wall, where its upper border casts the penumbra, and along it, where its sides do.
+    for [azimuth, elevation] in LIGHTS {
+        (scene.light.azimuth_degrees, scene.light.elevation_degrees) = (azimuth, elevation);
+        let toward = view::light_direction(&scene, 0.0);
+        let across = toward.cross(DVec3::Y).normalize();
+        let raised = across.cross(toward);
+        let radius = f64::from(scene.light.half_angle_degrees).to_radians().tan();
+        let (channels, _) = seen_from_start(gpu, &start_of(&scene, &fields[0], &fields[1..2]), &camera, SIZE);
+        let wall = Truth { placement: scene.reliefs[0].placement(), plane: scene.reliefs[0].plane.clone(), field: &fields[1] };
+        let half = wall.plane.size_metres(wall.field.size).map(|metres| 0.5 * metres);
+        for channel in channels.iter().filter(|channel| channel.steps >= 0.0 && channel.position[1] < -0.049) {
+            let position = DVec3::from(channel.position.map(f64::from));
+            let points = 2_000;
+            let open = (0..points).filter(|&i| {
+                let (distance, angle) = (((f64::from(i) + 0.5) / f64::from(points)).sqrt(), 2.399_963 * f64::from(i));
+                let aside = radius * distance * (angle.cos() * across + angle.sin() * raised);
+                !reliefs::hides(&wall.placement, half, 0.04, position, (toward + aside).normalize())
+            });
+            let expected = open.count() as f64 / f64::from(points);
+            let error = (f64::from(channel.visibility) - expected).abs();
+            // How far along the wall the centre's ray meets it, within a penumbra of a side border: there two borders meet.
+            let (here, way) = (wall.placement.local(position), wall.placement.turned(toward));
+            let at = here - here.y / way.y * way;
+            let soft = 0.1;
+            let is_corner = (at.x.abs() - half[0]).abs() < soft && (at.z.abs() - half[1]).abs() < soft;
+            if is_corner {
+                corner = corner.max(error);
+            } else {
+                worst = worst.max(error);
+            }
+            let is_soft = expected > 0.02 && expected < 0.98;
+            within += usize::from(is_soft);
+            sides += usize::from(is_soft && (at.x.abs() - half[0]).abs() < soft && !is_corner);
         }
-        within += usize::from(expected > 0.02 && expected < 0.98);
     }
-    println!("{within} pixels in the penumbra, off by at most {worst:.4}, at corners {corner:.4}");
-    assert!(within > 500, "{within}");
+    println!("{within} pixels in the penumbra, {sides} of them at the sides, off by at most {worst:.4}, at corners {corner:.4}");
+    assert!(within > 2_000 && sides > 500, "{within} {sides}");
     assert!(worst <= RELIEF_PENUMBRA && corner <= RELIEF_CORNER, "{worst} {corner}");
 }
 
