@@ -134,15 +134,12 @@ fn a_still_gas_planet_costs_at_most_a_quarter_of_a_busy_one() {
         frame.finish(gpu, encoder);
         frame.health(gpu);
         let times = frame.timer.finished_frame().expect("every pass was waited for");
-        times.iter().filter_map(|time| time.milliseconds).sum::<f64>()
+        times.iter().filter_map(|time| time.milliseconds).sum::<f64>() + 0.0
     };
-    let mut median = |frame: &mut Frame| {
-        let mut times: Vec<_> = (0..11).map(|_| step(frame)).collect();
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    };
-    median(&mut frame);
-    let busy = median(&mut frame);
+    // The least of some: other work on the machine only adds, and to short passes up to ten times what they take.
+    let mut least = |frame: &mut Frame| (0..11).map(|_| step(frame)).fold(f64::INFINITY, f64::min);
+    least(&mut frame);
+    let busy = least(&mut frame);
     // No emitters, no winds to return to, and what a gas of some viscosity loses.
     let cell_metres = scene.texel_metres() as f32;
     let gas = scene.gas.as_mut().expect("it is a planet of gas");
@@ -154,13 +151,13 @@ fn a_still_gas_planet_costs_at_most_a_quarter_of_a_busy_one() {
     let mut still = busy;
     let mut seconds = 0.0;
     while still > STILL_GAS_BUDGET * busy && seconds < 60.0 {
-        still = median(&mut frame);
+        still = least(&mut frame);
         seconds += 11.0 / 30.0;
     }
     println!(
         "96×48 cells: busy {busy:.2} ms a step, {still:.2} ms {seconds:.0} s after the emitters and the winds were switched off"
     );
-    assert!(median(&mut frame) <= STILL_GAS_BUDGET * busy, "{still} ms of {busy} ms");
+    assert!(least(&mut frame) <= STILL_GAS_BUDGET * busy, "{still} ms of {busy} ms");
 }
 
 /// Printed, not held: [PDM] fig. 21 has a whole frame grow by 1.28 from 256² to 2048².

@@ -385,6 +385,12 @@ pub const RELIEF_PENUMBRA: f64 = 0.02;
 /// The same at its corners, where the shares behind two borders are multiplied: twice what was measured.
 pub const RELIEF_CORNER: f64 = 0.045;
 
+/// The same where the light comes far aslant, and the border's place is no longer linear across the disc: half as much again as was measured,
+/// and at corners too. Taking one axis for the other is off by 0.13 along a border.
+pub const RELIEF_PENUMBRA_ASLANT: f64 = 0.037;
+/// At corners.
+pub const RELIEF_CORNER_ASLANT: f64 = 0.13;
+
 /// By how much a range of `bounds` may miss the surface, heights: rounding puts a height within half an ulp of a step's product onto that
 /// step, 3e-8, and the quotient may be an ulp below it. The traversal allows for five times as much.
 pub const BOUND_SLACK: f64 = 1e-7;
