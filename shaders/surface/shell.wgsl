@@ -22,7 +22,7 @@ struct ShellTriangle {
 @group(2) @binding(1) var<storage, read> shell_triangles: array<ShellTriangle>;
 
 // What a pixel needs of its tetrahedron comes along from the vertices, where it is the same: three vertices read by every pixel of every
-// tetrahedron would be half of the picture's time on a software adapter.
+// tetrahedron were a quarter of the picture's time on a software adapter (`planet`: 73 ms, now 54).
 struct ShellVaryings {
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) tetrahedron: u32,    // which of its prism's

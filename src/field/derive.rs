@@ -40,7 +40,7 @@ pub struct Derivation {
     pub slope_per_height: [f32; 2],
     /// Whether means of normals and heights are wanted.
     pub with_mips: bool,
-    /// Whether anything reads the pyramid. It costs a software adapter three times what the bounds do, and \[PDM\] alone needs it.
+    /// Whether anything reads the pyramid. It costs a software adapter twice what the bounds do, and \[PDM\] alone needs it.
     pub with_pyramid: bool,
 }
 
