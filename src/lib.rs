@@ -79,6 +79,7 @@ pub mod clock;
 pub mod field;
 pub mod frame;
 pub mod gpu;
+pub mod interruption;
 pub mod io;
 pub mod mesh;
 pub mod modes;

@@ -8,7 +8,7 @@ use std::sync::Mutex;
 
 use rilievo::cli::{self, Command, Refusal, Verbosity};
 use rilievo::modes::{self, ModeError};
-use rilievo::{io, io::scene_file};
+use rilievo::{interruption, io, io::scene_file};
 
 /// The arguments alone were refused.
 const REFUSED: u8 = 2;
@@ -26,6 +26,9 @@ fn main() -> ExitCode {
     };
     start_log(command.verbosity());
     keep_panics_quiet();
+    if let Err(error) = interruption::listen() {
+        log::warn!("Ctrl-C will end this run at once, without putting anything in order: {error}");
+    }
     // Unwinding, not aborting, removes what was half written.
     match panic::catch_unwind(AssertUnwindSafe(|| run(&command))) {
         Ok(outcome) => exit(outcome),
@@ -64,8 +67,12 @@ fn scenes() -> String {
 /// Prints the error, if there is one, and chooses the exit code.
 fn exit(outcome: anyhow::Result<()>) -> ExitCode {
     let Err(error) = outcome else { return ExitCode::SUCCESS };
-    let no_adapter = matches!(error.downcast_ref(), Some(ModeError::Adapter(_)));
-    say(&format!("{error:#}"), if no_adapter { NO_ADAPTER } else { FAILED })
+    let code = match error.downcast_ref() {
+        Some(ModeError::Adapter(_)) => NO_ADAPTER,
+        Some(ModeError::Interrupted { .. }) => interruption::exit_code(),
+        _ => FAILED,
+    };
+    say(&format!("{error:#}"), code)
 }
 
 /// Prints one sentence to stderr.

@@ -3,9 +3,10 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 use crate::captures::{capture, manifest, write_heights};
+use crate::support::desktop::{signal, wait_for};
 
 /// Runs the program in a directory.
 fn rilievo(directory: &Path, arguments: &[&str]) -> Output {
@@ -332,4 +333,62 @@ fn a_full_stdout_is_an_error() {
     let output = output.expect("the program was built with the tests");
     let sentence = refused(&output, 1);
     assert!(sentence.contains("stdout"), "{sentence}");
+}
+
+/// A run that would take hours, of which this file is there already.
+#[cfg(unix)]
+fn long_run(directory: &Path, arguments: &[&str], file: &str) -> Child {
+    let arguments = [arguments, &["--size", "64x48", "--field", "64", "--frames", "1000000"]].concat();
+    let child = command(directory, &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
+    wait_for(file, || directory.join(file).exists());
+    child
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_only_what_is_whole() {
+    if !has_adapter() {
+        return;
+    }
+    for (arguments, first, name, code) in [
+        (&["capture", "--scene", "ripples", "--out", "out", "--save-state", "state"][..], "out/frame_00002.png", "TERM", 143),
+        (&["capture", "--scene", "ripples", "--out", "out"], "out/frame_00000.png", "HUP", 129),
+        (
+            &["compare", "--techniques", "steep", "--out", "out", "--csv", "t.csv", "--json", "t.json"],
+            "out/row_00000.png",
+            "INT",
+            130,
+        ),
+    ] {
+        let directory = temporary();
+        let child = long_run(directory.path(), arguments, first);
+        signal(&child, name);
+        // As `timeout` does, which tells a program and then its group.
+        signal(&child, name);
+        let output = child.wait_with_output().expect("it ends");
+        let sentence = refused(&output, code);
+        assert!(sentence.contains("interrupted"), "{sentence}");
+        assert_eq!(names(directory.path()), ["out"], "{arguments:?}");
+        for file in names(&directory.path().join("out")) {
+            assert!(file.ends_with(".png"), "{arguments:?}: {file}");
+            image::open(directory.path().join("out").join(file)).expect("it is whole");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_that_is_ignored_stays_so() {
+    if !has_adapter() {
+        return;
+    }
+    let directory = temporary();
+    let line = r#"trap "" INT HUP; exec "$0" capture --scene ripples --size 64x48 --field 64 --frames 60 --out out"#;
+    let shell = Command::new("sh").args(["-c", line, env!("CARGO_BIN_EXE_rilievo")]).current_dir(directory.path()).spawn();
+    let mut child = shell.expect("there is a shell");
+    wait_for("the first frame", || directory.path().join("out/frame_00000.png").exists());
+    signal(&child, "INT");
+    signal(&child, "HUP");
+    assert!(child.wait().expect("it ends").success());
+    assert!(directory.path().join("out/manifest.json").exists());
 }

@@ -1,5 +1,5 @@
 //! The directory that a command writes to. Its own files there, those of its [`Owner`], are removed first where an earlier run left
-//! them; anything else is left alone. A run that fails takes its files with it.
+//! them; anything else is left alone. A run that fails takes its files with it; one that is interrupted leaves those that are whole.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::atomic::WriteError;
 use super::manifest;
 use crate::cli::Export;
+use crate::interruption;
 
 /// A comparison's table, as comma-separated values.
 pub const TABLE_CSV: &str = "table.csv";
@@ -112,8 +113,11 @@ impl Drop for OutputDir {
         if self.finished {
             return;
         }
-        // The error that ended the run is on its way already: what cannot be removed now stays.
-        let _ = self.clear();
+        // The error that ended the run is on its way already: what cannot be removed now stays. Who interrupts a run need not lose
+        // the files that are whole; that the last of them is missing says that there were to be more.
+        if !interruption::is_asked() {
+            let _ = self.clear();
+        }
         for made in self.made.iter().rev() {
             // Fails, as it should, where something else lies in it.
             let _ = fs::remove_dir(made);

@@ -18,6 +18,7 @@ use crate::cli::CommonOptions;
 use crate::frame::{Frame, FrameError, Start};
 use crate::gpu::readback::ReadbackError;
 use crate::gpu::{AdapterError, Gpu, Readback, ShaderError};
+use crate::interruption;
 use crate::io::atomic::WriteError;
 use crate::io::height_image::ImageError;
 use crate::io::image_sequence::Player;
@@ -80,9 +81,25 @@ pub enum ModeError {
     /// The device failed on the way.
     #[error("the graphics device failed: {0}; run it again, or choose another with --adapter")]
     Device(String),
+    /// The run was interrupted; see [`crate::interruption`].
+    #[error("interrupted: {left}")]
+    Interrupted {
+        /// What is left of it.
+        left: &'static str,
+    },
     /// There is no window.
     #[error("{0}")]
     Window(String),
+}
+
+/// Asks whether a run without a window may go on to its next frame.
+///
+/// # Errors
+///
+/// It was interrupted.
+pub fn check_interruption() -> Result<(), ModeError> {
+    let left = "what was written by then is whole, and the rest was not written";
+    if interruption::is_asked() { Err(ModeError::Interrupted { left }) } else { Ok(()) }
 }
 
 /// Opens the device that the command line asks for, hardware first.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{ModeError, state};
+use super::{ModeError, check_interruption, state};
 use crate::camera::Camera;
 use crate::cli::ResumeOptions;
 use crate::clock::{Clock, Pace, Tick};
@@ -159,8 +159,9 @@ impl Script {
     ///
     /// # Errors
     ///
-    /// A scene of a journal cannot be shown on this adapter.
+    /// The run was interrupted, or a scene of a journal cannot be shown on this adapter.
     pub fn next(&mut self, gpu: &Gpu, frame: &mut Frame, start: &mut Start) -> Result<Moment, ModeError> {
+        check_interruption()?;
         let recorded = match &mut self.replay {
             Some(replay) => replay.next(gpu, frame, start)?,
             None => None,

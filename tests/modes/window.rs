@@ -254,6 +254,29 @@ fn a_window_that_is_destroyed_ends_the_program_without_a_panic() {
 }
 
 #[test]
+fn an_interrupted_session_keeps_its_journal_and_its_state() {
+    let Some(desktop) = Desktop::start() else { return };
+    for (name, code) in [("INT", 130), ("TERM", 143)] {
+        let directory = tempfile::tempdir().expect("a temporary folder");
+        let small = [&SMALL[..], &["--record", "journal", "--save-state", "state"]].concat();
+        let program = desktop.open(directory.path(), "ripples", &small);
+        program.hand("mousemove --window WINDOW 520 250 click 1 sleep 0.5");
+        program.signal(name);
+        let output = program.end();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{said}");
+        assert!(said.starts_with("error: interrupted") && said.lines().count() == 1, "{said}");
+        let mut names: Vec<_> =
+            std::fs::read_dir(&directory).expect("it is there").map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["journal", "state"]);
+        let journal = rilievo::io::journal::read(&directory.path().join("journal")).expect("it is whole");
+        assert!(journal.entries.len() > 1);
+        rilievo::io::state_file::read(&directory.path().join("state")).expect("it is whole");
+    }
+}
+
+#[test]
 fn closing_a_script_early_writes_nothing_and_says_so() {
     let Some(desktop) = Desktop::start() else { return };
     let directory = tempfile::tempdir().expect("a temporary folder");

@@ -153,6 +153,11 @@ impl Program<'_> {
         line.split_whitespace().next()?.parse().ok()
     }
 
+    /// Sends the program a signal, by its short name.
+    pub fn signal(&self, name: &str) {
+        signal(self.child.as_ref().expect("it has not ended"), name);
+    }
+
     /// Asks the window to close, as a user does.
     pub fn close(&self) {
         let status = self.desktop.command("wmctrl").args(["-i", "-c", &self.window]).status().expect("wmctrl runs");
@@ -180,6 +185,12 @@ impl Drop for Program<'_> {
 fn is_installed(tool: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&path).any(|folder| folder.join(tool).is_file())
+}
+
+/// Sends a program a signal, by its short name.
+pub fn signal(child: &Child, name: &str) {
+    let status = Command::new("kill").arg(format!("-{name}")).arg(child.id().to_string()).status().expect("kill runs");
+    assert!(status.success(), "it has ended already");
 }
 
 /// Asks again and again until it is so.

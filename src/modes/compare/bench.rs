@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use crate::modes::capture::{PICTURE_FORMAT, Picture, read_channels, read_texture};
 use crate::modes::headless::trusted_timer;
 use crate::modes::script::{Solo, hand_images};
-use crate::modes::{ModeError, wait_for_gpu};
+use crate::modes::{ModeError, check_interruption, wait_for_gpu};
 use crate::scene::Scene;
 use crate::stroke::Strokes;
 use crate::surface::albedo_image::ColourImage;
@@ -64,7 +64,7 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// The strokes of a frame are too many, or the device was lost.
+    /// The run was interrupted, the strokes of a frame are too many, or the device was lost.
     pub fn after(
         gpu: &Gpu,
         start: &Start,
@@ -78,6 +78,7 @@ impl Bench {
         let mut solo = Solo::new(&frame, DT_SECONDS);
         let mut tick = Tick::default();
         for number in 0..=warmup {
+            check_interruption()?;
             let mut moment = solo.next(scene);
             hand_images(&mut player, scene, &moment.tick, &mut moment.strokes)?;
             tick = moment.tick;
@@ -159,7 +160,7 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// A shader does not compile, or the device was lost.
+    /// The run was interrupted, a shader does not compile, or the device was lost.
     pub fn show(&mut self, gpu: &Gpu, variant: &Variant, camera: &Camera) -> Result<Shown, ModeError> {
         self.time(gpu, variant, camera)?;
         let picture = self.picture.read(gpu)?;
@@ -177,8 +178,9 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// A shader does not compile, or the device was lost.
+    /// The run was interrupted, a shader does not compile, or the device was lost.
     pub fn time(&mut self, gpu: &Gpu, variant: &Variant, camera: &Camera) -> Result<Times, ModeError> {
+        check_interruption()?;
         let scene = variant.scene(&self.scene);
         if *self.frame.scene() != scene {
             self.frame.set_scene(gpu, &scene)?;

@@ -32,6 +32,7 @@ use self::session::{DT_SECONDS, Pacing, Session};
 use super::{ModeError, capture, script, start};
 use crate::cli::LiveOptions;
 use crate::frame::{FrameInput, check_limits};
+use crate::interruption;
 use crate::io::atomic;
 use crate::io::journal::Journal;
 use crate::io::scene_file::{self, LoadedScene, SceneOverrides};
@@ -59,11 +60,27 @@ pub fn run(options: &LiveOptions) -> Result<(), ModeError> {
         ModeError::Window(format!("there is no display to open a window on: {remedy}"))
     };
     let event_loop = EventLoop::new().map_err(no_display)?;
-    let mut live = Live { options, loaded: Some((loaded, journal)), shown: 0, open: None, outcome: Ok(()) };
+    let waker = event_loop.create_proxy();
+    std::thread::spawn(move || {
+        interruption::wait();
+        // Any event will do: the loop asks for itself. One that has ended is told nothing.
+        let _ = waker.send_event(());
+    });
+    let mut live = Live { options, loaded: Some((loaded, journal)), shown: 0, open: None, interrupted: false, outcome: Ok(()) };
     event_loop.run_app(&mut live).map_err(no_display)?;
     live.outcome?;
     if let Some(open) = &mut live.open {
         open.session.close(options.save_state.as_deref())?;
+    }
+    let complete = options.frames.is_some_and(|wanted| live.shown >= wanted);
+    if live.interrupted && !complete {
+        let left = match options.frames {
+            None => "the window was closed, and what it was to record or to save is whole",
+            Some(_) => {
+                "the window was closed before its last frame, which is not written; what it was to record or to save is whole"
+            }
+        };
+        return Err(ModeError::Interrupted { left });
     }
     match (options.frames, &options.out, live.open) {
         (Some(wanted), Some(out), Some(open)) if live.shown >= wanted => write_last_frame(open.session, options, wanted, out),
@@ -98,6 +115,8 @@ struct Live<'a> {
     /// How many frames there were.
     shown: u32,
     open: Option<Open>,
+    /// Whether something else than the window ended it.
+    interrupted: bool,
     outcome: Result<(), ModeError>,
 }
 
@@ -146,6 +165,10 @@ impl ApplicationHandler for Live<'_> {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        if interruption::is_asked() {
+            self.interrupted = true;
+            return event_loop.exit();
+        }
         let Some(open) = &self.open else { return };
         let now = Instant::now();
         match open.due {
