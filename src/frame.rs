@@ -587,13 +587,14 @@ impl Frame {
         self.stack.health(gpu)
     }
 
-    /// Bytes of GPU memory of every texture.
+    /// Bytes of GPU memory of every texture and of every list; uniforms take some kilobytes more.
     pub fn memory_bytes(&self) -> u64 {
         let [width, height] = self.image_size.map(u64::from);
         // The picture itself has four bytes a pixel in every format that is shown.
         let stage = self.stage.as_ref().map_or(0, Stage::memory_bytes);
         let beside = self.reliefs.memory_bytes() + stage;
-        let layers = self.field.memory_bytes() + self.groundwork.memory_bytes() + self.stack.memory_bytes();
+        let own = self.field.memory_bytes() + self.derive_set.memory_bytes();
+        let layers = own + self.groundwork.memory_bytes() + self.stack.memory_bytes();
         layers + beside + self.radiance.memory_bytes() + 4 * width * height
     }
 

@@ -89,6 +89,13 @@ pub struct BoundsSet {
     addressing: Addressing,
 }
 
+impl BoundsSet {
+    /// Bytes of GPU memory of the list of blocks.
+    pub fn memory_bytes(&self) -> u64 {
+        self.blocks.memory_bytes()
+    }
+}
+
 impl BoundsPass {
     /// A row of texels is contiguous in memory.
     pub const WORKGROUP: [u32; 2] = [16, 8];

@@ -71,6 +71,13 @@ pub struct ComposeSet {
     size: [u32; 2],
 }
 
+impl ComposeSet {
+    /// Bytes of GPU memory of the list of blocks.
+    pub fn memory_bytes(&self) -> u64 {
+        self.blocks.memory_bytes()
+    }
+}
+
 impl Compose {
     /// Builds the pipeline of a segment of so many layers, at most [`LAYERS_MAX`], at the top of the stack or below it.
     ///

@@ -44,6 +44,14 @@ pub struct Derivation {
     pub with_pyramid: bool,
 }
 
+impl DeriveSet {
+    /// Bytes of GPU memory of the lists of blocks.
+    pub fn memory_bytes(&self) -> u64 {
+        let passes = self.normals.memory_bytes() + self.normal_mips.memory_bytes();
+        passes + self.pyramid.memory_bytes() + self.bounds.memory_bytes()
+    }
+}
+
 impl Derive {
     /// Builds the pipelines.
     ///

@@ -475,6 +475,11 @@ impl Gas {
 }
 
 impl GasSet {
+    /// Bytes of GPU memory of its buffers, and of the lists of puffs.
+    pub fn memory_bytes(&self) -> u64 {
+        self.buffers.memory_bytes() + self.emit.memory_bytes()
+    }
+
     /// Which of the states is current.
     pub fn role(&self) -> Role {
         self.role

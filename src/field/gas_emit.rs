@@ -124,6 +124,13 @@ pub struct GasEmitSet {
     groups: Vec<wgpu::BindGroup>,
 }
 
+impl GasEmitSet {
+    /// Bytes of GPU memory of the lists.
+    pub fn memory_bytes(&self) -> u64 {
+        self.tile_list.memory_bytes() + self.member_list.memory_bytes() + self.puff_list.memory_bytes()
+    }
+}
+
 impl GasEmit {
     /// Builds the pipeline.
     ///

@@ -200,6 +200,6 @@ impl Source for GasSource {
     }
 
     fn memory_bytes(&self) -> u64 {
-        self.density.memory_bytes() + self.set.buffers.memory_bytes()
+        self.density.memory_bytes() + self.set.memory_bytes()
     }
 }

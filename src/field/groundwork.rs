@@ -124,7 +124,7 @@ impl Groundwork {
     /// Bytes of GPU memory besides the field's own.
     pub fn memory_bytes(&self) -> u64 {
         let heal = self.heal.as_ref().map_or(0, |(_, set)| set.memory_bytes());
-        heal + self.undo.memory_bytes() + self.stamp_set.images().memory_bytes()
+        heal + self.undo.memory_bytes() + self.stamp_set.memory_bytes()
     }
 
     /// Does to the layers what is to be done in a frame, and says which texels it may have changed.

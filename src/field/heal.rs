@@ -186,9 +186,9 @@ impl HealSet {
         !self.open.is_empty()
     }
 
-    /// Bytes of GPU memory of the base.
+    /// Bytes of GPU memory of the base, and of the list of tiles.
     pub fn memory_bytes(&self) -> u64 {
-        self.base.memory_bytes()
+        self.base.memory_bytes() + self.tiles.memory_bytes()
     }
 }
 

@@ -44,6 +44,13 @@ pub struct NormalMipsSet {
     size: [u32; 2],
 }
 
+impl NormalMipsSet {
+    /// Bytes of GPU memory of the list of blocks.
+    pub fn memory_bytes(&self) -> u64 {
+        self.blocks.memory_bytes()
+    }
+}
+
 impl NormalMips {
     /// A row of texels is contiguous in memory.
     pub const WORKGROUP: [u32; 2] = [16, 8];

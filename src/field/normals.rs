@@ -42,6 +42,13 @@ pub struct NormalsSet {
     addressing: Addressing,
 }
 
+impl NormalsSet {
+    /// Bytes of GPU memory of the list of blocks.
+    pub fn memory_bytes(&self) -> u64 {
+        self.blocks.memory_bytes()
+    }
+}
+
 impl Normals {
     /// The tile and its halo of one stay in cache.
     pub const WORKGROUP: [u32; 2] = [16, 8];

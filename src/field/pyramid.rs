@@ -49,6 +49,13 @@ pub struct PyramidSet {
     addressing: Addressing,
 }
 
+impl PyramidSet {
+    /// Bytes of GPU memory of the list of blocks.
+    pub fn memory_bytes(&self) -> u64 {
+        self.blocks.memory_bytes()
+    }
+}
+
 impl Pyramid {
     /// A row of texels is contiguous in memory.
     pub const WORKGROUP: [u32; 2] = [16, 8];

@@ -293,7 +293,8 @@ impl Held {
     /// Bytes of GPU memory.
     pub fn memory_bytes(&self) -> u64 {
         let buffers = self.depths.iter().chain(&self.flows).map(wgpu::Buffer::size).sum::<u64>();
-        self.bed.memory_bytes() + self.surface.memory_bytes() + buffers
+        let lists = self.events.memory_bytes() + self.bodies.memory_bytes();
+        self.bed.memory_bytes() + self.surface.memory_bytes() + buffers + lists
     }
 }
 

@@ -109,7 +109,7 @@ pub trait Source {
     /// Bytes that it moved in the last frame, by design.
     fn traffic_bytes(&self) -> u64;
 
-    /// Bytes of GPU memory of its textures.
+    /// Bytes of GPU memory of its textures, buffers and lists.
     fn memory_bytes(&self) -> u64;
 }
 

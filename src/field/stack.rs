@@ -203,9 +203,10 @@ impl Stack {
         self.source(name).map(Source::traffic_bytes)
     }
 
-    /// Bytes of GPU memory of the sources' textures.
+    /// Bytes of GPU memory of the sources, and of the lists of what composes them.
     pub fn memory_bytes(&self) -> u64 {
-        self.sources.iter().map(|source| source.memory_bytes()).sum()
+        let segments = self.segments.iter().map(|segment| segment.set.memory_bytes()).sum::<u64>();
+        self.sources.iter().map(|source| source.memory_bytes()).sum::<u64>() + segments
     }
 }
 

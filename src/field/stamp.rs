@@ -175,6 +175,13 @@ impl StampSet {
         self.bins.tiles[first..first + count].iter().map(|tile| tile.tile)
     }
 
+    /// Bytes of GPU memory of its lists, and of the images.
+    pub fn memory_bytes(&self) -> u64 {
+        let Buffers { params: _, tiles, members, records, extras } = &self.buffers;
+        let lists = tiles.memory_bytes() + members.memory_bytes() + records.memory_bytes() + extras.memory_bytes();
+        lists + self.images.memory_bytes()
+    }
+
     /// The images that stamps may have for their form.
     pub fn images(&self) -> &StampImages {
         &self.images

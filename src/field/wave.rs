@@ -682,6 +682,8 @@ impl Source for WaveSource {
     }
 
     fn memory_bytes(&self) -> u64 {
-        self.set.mask_texture.memory_bytes() + self.set.states.iter().map(Texture::memory_bytes).sum::<u64>()
+        let Buffers { params: _, tiles, members, impulses, batches: _ } = &self.set.buffers;
+        let lists = tiles.memory_bytes() + members.memory_bytes() + impulses.memory_bytes();
+        self.set.mask_texture.memory_bytes() + self.set.states.iter().map(Texture::memory_bytes).sum::<u64>() + lists
     }
 }

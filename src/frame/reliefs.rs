@@ -96,9 +96,11 @@ impl Stills {
         self.all.iter().zip(&scene.reliefs).map(|(still, relief)| still.mesh(scene, relief))
     }
 
-    /// Bytes of GPU memory of their fields.
+    /// Bytes of GPU memory of their fields, and of the lists of what derives them.
     pub(super) fn memory_bytes(&self) -> u64 {
-        self.fields().map(Field::memory_bytes).sum()
+        let bytes =
+            |still: &Still| still.field.memory_bytes() + still.compose_set.memory_bytes() + still.derive_set.memory_bytes();
+        self.all.iter().map(bytes).sum()
     }
 }
 

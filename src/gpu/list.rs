@@ -42,6 +42,11 @@ impl<T: bytemuck::Pod> List<T> {
         gpu.device.limits().max_storage_buffer_binding_size / size_of::<T>() as u64
     }
 
+    /// Bytes of GPU memory.
+    pub fn memory_bytes(&self) -> u64 {
+        self.buffer.size()
+    }
+
     /// Sets the first items for the next submission; there must be room.
     pub fn write(&self, gpu: &Gpu, items: &[T]) {
         gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(items));

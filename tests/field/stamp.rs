@@ -590,3 +590,29 @@ fn ten_thousand_small_stamps_cost_what_they_touch_and_not_the_field() {
     println!("1,000 of radius 2: {:.2} MB at 1024², {:.2} MB at 2048²", small.0 as f64 / 1e6, large.0 as f64 / 1e6);
     assert!(large.0 as f64 <= STAMP_COST_GROWTH * small.0 as f64 && large.1 < 0.15, "{small:?}, {large:?}");
 }
+
+#[test]
+fn the_lists_of_stamps_are_memory_too() {
+    let Some(gpu) = gpu() else { return };
+    let wall = Scene { field: scene::FieldSettings { size: [64; 2], addressing: Addressing::Wrap }, ..Scene::default() };
+    let camera = Camera::at(&scene::Camera::default(), 0.0);
+    let bytes = |count: u32| {
+        let start = Start::new(&wall, vec![0.5; 64 * 64], None);
+        let mut frame = Frame::new(gpu, &start, [8, 8], PICTURE_FORMAT).expect("its shaders compile");
+        let picture = Picture::new(gpu, [8, 8]);
+        let strokes = Strokes { presses: stress_discs(0, 0, count, 0.1, [64; 2]).collect(), ..Strokes::default() };
+        let tick = Tick::default();
+        let input = FrameInput { tick: &tick, strokes: &strokes, camera: &camera, display: Shows::Picture.into() };
+        let mut encoder = gpu.encoder("test");
+        frame.record(gpu, &mut encoder, &input, Some(picture.view())).expect("they fit");
+        frame.finish(gpu, encoder);
+        frame.memory_bytes()
+    };
+    // Discs of less than a texel, one entry each at most: records of 20 bytes for all of them, and a power of two for those that meet
+    // a texel, of whose entries each takes 16 bytes.
+    let grown = bytes(4096) - bytes(0);
+    assert!(grown >= 4096 * 20 - 64 * 20, "{grown} bytes for 4,096 stamps");
+    // What is not used has room for a few: all lists of a small field together are small.
+    let textures = (29.5 * 64.0 * 64.0) as u64;
+    assert!((textures + 10_000..textures + 100_000).contains(&bytes(0)), "{}", bytes(0));
+}
