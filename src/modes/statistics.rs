@@ -62,6 +62,11 @@ impl Steps {
     }
 }
 
+/// So many of what has this name, in words.
+pub fn counted(count: u64, name: &str) -> String {
+    if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::capture::read_channels;
 use super::headless::{self, Headless};
 use super::script::Script;
-use super::statistics::{Spread, Steps};
+use super::statistics::{Spread, Steps, counted};
 use super::{ModeError, check_health, progress, wait_for, wait_for_gpu};
 use crate::cli::{StressOptions, Verbosity};
 use crate::field::{gas, shallow_water};
@@ -239,8 +239,11 @@ fn table(report: &Report) -> String {
     let [width, height] = report.image_size;
     line(format_args!("{} ({}, {})", report.adapter.name, report.adapter.backend, report.adapter.driver));
     line(format_args!(
-        "{}, {}, shadow {}: field {field_width}×{field_height}, picture {width}×{height}, {} frames\n",
-        report.scene, report.technique, report.shadow, report.frames
+        "{}, {}, shadow {}: field {field_width}×{field_height}, picture {width}×{height}, {}\n",
+        report.scene,
+        report.technique,
+        report.shadow,
+        counted(u64::from(report.frames), "frame")
     ));
     line(format_args!("{:<22}{:>10}{:>10}{:>10}", "milliseconds a frame", "median", "95 %", "least"));
     let mut row = |name: &str, spread: Option<Spread>| match spread {
@@ -256,8 +259,11 @@ fn table(report: &Report) -> String {
     row("submission to done", Some(report.frame.wall_ms));
     let steps = report.steps_per_pixel;
     line(format_args!(
-        "\nsteps a pixel          {:.1} mean, {:.0} at 99 %, {:.0} at most, {} rays gave up",
-        steps.mean, steps.p99, steps.max, steps.capped
+        "\nsteps a pixel          {:.1} mean, {:.0} at 99 %, {:.0} at most, {} gave up",
+        steps.mean,
+        steps.p99,
+        steps.max,
+        counted(steps.capped as u64, "ray")
     ));
     line(format_args!("bytes a frame          {:.1} MB by design, {:.2} GB/s", report.bytes_per_frame / 1e6, report.gb_per_s));
     line(format_args!("field                  {:.2} bytes a texel", report.field_bytes_per_texel));

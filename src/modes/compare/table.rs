@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::equal_error;
 use crate::cli::Truth;
 use crate::io::manifest::Adapter;
-use crate::modes::statistics::Steps;
+use crate::modes::statistics::{Steps, counted};
 use crate::scene::Scene;
 use crate::surface::{Shadow, Technique};
 
@@ -190,14 +190,18 @@ impl Table {
     pub fn text(&self) -> String {
         let mut text = String::new();
         let [width, height] = self.image_size;
+        let times = match self.frames {
+            // A median of one is itself.
+            1 => "of 1 frame".to_owned(),
+            frames => format!("medians of {frames} frames"),
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{} ({}, {})", self.adapter.name, self.adapter.backend, self.adapter.driver);
         let _ = writeln!(
             text,
-            "{}: picture {width}×{height}; positions against {}; times are medians of {} frames",
+            "{}: picture {width}×{height}; positions against {}; times are {times}",
             self.scene.name,
             self.truth.name(),
-            self.frames
         );
         let mut rows = &self.rows[..];
         while let Some(first) = rows.first() {
@@ -272,13 +276,13 @@ fn aligned(rows: &[Row]) -> String {
     }));
     let widest = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..lines[0].len()).map(widest).collect();
-    let counted = rows.iter().any(|row| row.samples.is_some());
+    let sampled = rows.iter().any(|row| row.samples.is_some());
     let mut text = String::new();
     for line in &lines {
         let cells = line.iter().zip(&widths).enumerate().filter_map(|(column, (cell, width))| match column {
             // Names stand to the left, numbers to the right.
             0 | 2 => Some(format!("{cell:<width$}")),
-            1 if !counted => None,
+            1 if !sampled => None,
             _ => Some(format!("{cell:>width$}")),
         });
         text.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
@@ -287,7 +291,7 @@ fn aligned(rows: &[Row]) -> String {
     let capped: usize = rows.iter().map(|row| row.capped).sum();
     if capped > 0 {
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "{capped} rays gave up at the cap of steps: they count as wrong cells");
+        let _ = writeln!(text, "{} gave up at the cap of steps: each counts as a wrong cell", counted(capped as u64, "ray"));
     }
     text
 }
@@ -366,6 +370,9 @@ pub(super) mod tests {
         let head = lines.iter().position(|line| line.starts_with("technique")).unwrap();
         let ends = |line: &str, word: &str| line.find(word).map(|start| line[..start + word.len()].chars().count());
         assert_eq!(ends(lines[head], "samples"), ends(lines[head + 1], "16"), "{text}");
+        assert!(text.contains("times are medians of 3 frames"), "{text}");
+        table.frames = 1;
+        assert!(table.text().contains("times are of 1 frame\n"), "{}", table.text());
         assert!(text.contains("7 rays gave up") && text.contains("same") && text.contains('–'), "{text}");
         assert!(text.lines().all(|line| line == line.trim_end()));
     }
