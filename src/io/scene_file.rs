@@ -250,8 +250,8 @@ pub fn embedded(name: &str) -> Option<Scene> {
 }
 
 /// Loads a scene by name, or from a file: whatever ends in `.toml` or has a path separator in it. Then applies the overrides, checks
-/// every value, reads its image, and moves a camera of the program's own so that it shows the whole plane, or the mesh
-/// of a file, in a picture of this size.
+/// every value, reads its image, and moves a camera of the program's own so that it shows the whole plane, or the whole
+/// mesh, in a picture of this size.
 ///
 /// # Errors
 ///
@@ -301,6 +301,16 @@ impl LoadedScene {
     }
 }
 
+impl LoadedScene {
+    /// The vertices of a mesh of the program's own, at its own size; none where a scene says how large it is to be.
+    fn points_of_shape(&self) -> Option<impl Iterator<Item = DVec3>> {
+        let settings = self.scene.mesh.as_ref()?;
+        let own = settings.radius_metres.is_none() && matches!(settings.source, MeshSource::Shape(_));
+        let mesh = self.mesh.as_ref().filter(|_| own)?;
+        Some(mesh.vertices.iter().map(|vertex| vertex.position.as_dvec3()))
+    }
+}
+
 /// Checks a scene and reads its files.
 fn prepare(
     which: &str,
@@ -324,10 +334,12 @@ fn prepare(
     // A camera that someone chose stays where it is.
     if overrides.camera.is_none() && !given.camera {
         let aspect = f64::from(image_size[0]) / f64::from(image_size[1]);
-        loaded.scene.camera = match loaded.ball_of_file() {
-            Some((middle, radius)) => loaded.scene.framing_of(middle, radius, aspect),
-            None => loaded.scene.framing(aspect),
+        let camera = match (loaded.ball_of_file(), loaded.points_of_shape()) {
+            (Some((middle, radius)), _) => loaded.scene.framing_of(middle, radius, aspect),
+            (None, Some(points)) => loaded.scene.framing_of_points(points, aspect),
+            (None, None) => loaded.scene.framing(aspect),
         };
+        loaded.scene.camera = camera;
     }
     Ok(loaded)
 }

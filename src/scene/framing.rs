@@ -35,12 +35,6 @@ impl Scene {
     /// `aspect` is the picture's width over its height. A camera that sees the plane stays where it is, and so does one over a plane
     /// that repeats its field: that is there to go on to the horizon.
     pub fn framing(&self, aspect: f64) -> Camera {
-        let camera = &self.camera;
-        if self.plane.repeat != [1, 1] {
-            return camera.clone();
-        }
-        let target = DVec3::from(camera.target);
-        let from_target = DVec3::from(camera.eye) - target;
         // Balls round what there is to see: the plane's corners, or a mesh whose size is known.
         let [x, z] = self.plane_size_metres().map(|extent| extent / 2.0);
         let corners = [DVec3::new(-x, 0.0, -z), DVec3::new(x, 0.0, -z), DVec3::new(-x, 0.0, z), DVec3::new(x, 0.0, z)];
@@ -48,6 +42,22 @@ impl Scene {
             Some(radius) => vec![(DVec3::ZERO, f64::from(radius))],
             None => corners.map(|corner| (corner, 0.0)).to_vec(),
         };
+        self.moved_away(&balls, aspect)
+    }
+
+    /// The same, until it sees all of these points instead of the plane: a mesh of the program's own stands where scenes look, but the
+    /// plane's distance is too near for some.
+    pub fn framing_of_points(&self, points: impl Iterator<Item = DVec3>, aspect: f64) -> Camera {
+        self.moved_away(&points.map(|point| (point, 0.0)).collect::<Vec<_>>(), aspect)
+    }
+
+    fn moved_away(&self, balls: &[(DVec3, f64)], aspect: f64) -> Camera {
+        let camera = &self.camera;
+        if self.plane.repeat != [1, 1] {
+            return camera.clone();
+        }
+        let target = DVec3::from(camera.target);
+        let from_target = DVec3::from(camera.eye) - target;
         let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan() * MARGIN;
         let half = [half_height * aspect, half_height];
 

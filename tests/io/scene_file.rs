@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use glam::Vec3;
+use rilievo::camera::Camera;
 use rilievo::io::scene_file::{CameraPlacement, EMBEDDED, FieldSize, SceneOverrides, embedded, list, load};
 use rilievo::mesh::{MeshSource, Shape};
 use rilievo::scene::{Base, Boundary, PomCounts, PyramidLeaf, Scene, Text};
@@ -46,6 +48,28 @@ fn a_mesh_is_seen_wherever_its_file_puts_it() {
     // The program's own shapes stand where the scenes look.
     let shape = SceneOverrides { mesh: Some(MeshSource::Shape(Shape::Torus)), ..SceneOverrides::default() };
     assert_eq!(load("relief", &shape, PICTURE).expect("it is sound").scene.camera.target, [0.0, -0.04, 0.02]);
+}
+
+#[test]
+fn a_shape_is_seen_whole() {
+    for shape in Shape::ALL {
+        for picture in [PICTURE, [64, 40], [300, 900]] {
+            let overrides = SceneOverrides { mesh: Some(MeshSource::Shape(shape)), ..SceneOverrides::default() };
+            let loaded = load("relief", &overrides, picture).expect("it is sound");
+            let camera = Camera::at(&loaded.scene.camera, 0.0);
+            let view_from_world = camera.world_from_view.inverse();
+            let half_height = (camera.vertical_fov_radians / 2.0).tan();
+            let half_width = half_height * f64::from(picture[0]) / f64::from(picture[1]);
+            let reach = |point: Vec3| {
+                let p = view_from_world.transform_point3(point.as_dvec3());
+                if p.z < 0.0 { (p.x.abs() / half_width).max(p.y.abs() / half_height) / -p.z } else { f64::INFINITY }
+            };
+            let mesh = loaded.mesh.expect("it was asked for");
+            let farthest = mesh.vertices.iter().map(|vertex| reach(vertex.position)).fold(0.0, f64::max);
+            // Near the picture's border, and within it.
+            assert!((0.6..0.99).contains(&farthest), "{shape:?} in {picture:?}: {farthest}");
+        }
+    }
 }
 
 #[test]
