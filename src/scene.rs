@@ -21,7 +21,6 @@ mod validate;
 
 use std::path::PathBuf;
 
-use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shading, Shadow, Technique};
@@ -408,15 +407,19 @@ fn one() -> f32 {
 
 /// Reads an array of this very length: serde's own would stop after as many as it needs.
 fn exactly<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(deserializer: D) -> Result<[T; N], D::Error> {
-    let values = Vec::deserialize(deserializer)?;
-    let count = values.len();
-    values.try_into().map_err(|_| D::Error::custom(format!("{count} values where there must be {N}")))
+    array(Vec::deserialize(deserializer)?)
 }
 
 fn exactly_or_none<'de, D: Deserializer<'de>, T: Deserialize<'de>, const N: usize>(
     deserializer: D,
 ) -> Result<Option<[T; N]>, D::Error> {
-    exactly(deserializer).map(Some)
+    // What no TOML has, JSON writes as null: in journals, states and manifests.
+    Option::<Vec<T>>::deserialize(deserializer)?.map(array).transpose()
+}
+
+fn array<E: serde::de::Error, T, const N: usize>(values: Vec<T>) -> Result<[T; N], E> {
+    let count = values.len();
+    values.try_into().map_err(|_| E::custom(format!("{count} values where there must be {N}")))
 }
 
 impl Scene {

@@ -15,7 +15,7 @@ use crate::clock::Clock;
 use crate::scene::Scene;
 
 /// The version of the format that this program reads and writes.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What every state file begins with.
 const MAGIC: &[u8] = b"rilievo state\n";
@@ -28,6 +28,10 @@ const HEADER_BYTES_MAX: u64 = 1 << 24;
 pub struct SavedState {
     /// The scene as it was.
     pub scene: Scene,
+    /// [`journal::sum_of`](super::journal::sum_of) the heights that the field started from: an image or a font may have changed since.
+    pub heights: u32,
+    /// The same of the images that stamps have for their form.
+    pub images: u32,
     /// Its clock: the next frame comes after the last that was shown.
     pub clock: Clock,
     /// What the field and each source remember.
@@ -56,6 +60,8 @@ struct Header {
     version: u32,
     program: String,
     scene: Scene,
+    heights: u32,
+    images: u32,
     clock: Clock,
     parts: Vec<Part>,
     blob_bytes: Vec<u64>,
@@ -93,6 +99,8 @@ pub fn write(path: &Path, state: &SavedState) -> Result<(), WriteError> {
             version: VERSION,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             scene: state.scene.clone(),
+            heights: state.heights,
+            images: state.images,
             clock: state.clock.clone(),
             parts: state.parts.clone(),
             blob_bytes: state.blobs.iter().map(|blob| blob.len() as u64).collect(),
@@ -158,7 +166,8 @@ pub fn read(path: &Path) -> Result<SavedState, StateFileError> {
     if !rest.is_empty() {
         return Err(truncated());
     }
-    Ok(SavedState { scene: header.scene, clock: header.clock, parts: header.parts, blobs })
+    let Header { scene, heights, images, clock, parts, .. } = header;
+    Ok(SavedState { scene, heights, images, clock, parts, blobs })
 }
 
 #[cfg(test)]
@@ -174,6 +183,8 @@ mod tests {
             Part { name: "field".to_owned(), textures: vec![("R32Float".to_owned(), 2, 1)], buffers: vec![3], numbers: vec![7] };
         SavedState {
             scene: Scene::default(),
+            heights: 1,
+            images: 2,
             clock,
             parts: vec![part],
             blobs: vec![vec![1, 2, 3, 4, 5, 6, 7, 8], vec![9, 10, 11]],
@@ -213,10 +224,13 @@ mod tests {
         let path = directory.path().join("state");
         write(&path, &saved()).unwrap();
         let whole = std::fs::read(&path).unwrap();
-        let at = whole.windows(11).position(|window| window == b"\"version\":1").unwrap();
-        let mut other = whole;
-        other[at + 10] = b'9';
-        std::fs::write(&path, &other).unwrap();
-        assert!(read(&path).expect_err("version 9").to_string().contains("is of version 9"));
+        let at = whole.windows(11).position(|window| window == b"\"version\":2").unwrap();
+        for version in [1, 9] {
+            let mut other = whole.clone();
+            other[at + 10] = b'0' + version;
+            std::fs::write(&path, &other).unwrap();
+            let sentence = read(&path).expect_err("it is another version").to_string();
+            assert!(sentence.contains(&format!("is of version {version}, and this program reads version 2")), "{sentence}");
+        }
     }
 }

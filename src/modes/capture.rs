@@ -69,7 +69,7 @@ pub fn run(options: &CaptureOptions, verbosity: Verbosity) -> Result<(), ModeErr
         }
     }
     if let Some(path) = &options.save_state {
-        state::save(&gpu, &frame, script.clock(), path)?;
+        state::save(&gpu, &frame, &start, script.clock(), path)?;
     }
     manifest.write(directory.path())?;
     directory.finish();

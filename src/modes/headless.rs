@@ -43,7 +43,7 @@ impl Headless {
         let gpu = open_device(common)?;
         frame::check_limits(&gpu, &loaded.scene, common.image_size)?;
         let (start, player) = start(&loaded)?;
-        let resumed = script::resumed(resume, journal, common.overrides(), &start.scene, &start.heights)?;
+        let resumed = script::resumed(resume, journal, common.overrides(), &start)?;
         let frame = Frame::new(&gpu, &start, common.image_size, PICTURE_FORMAT)?;
         let picture = Picture::new(&gpu, common.image_size);
         Ok(Self { gpu, start, frame, picture, player, resumed })

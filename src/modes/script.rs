@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::statistics::counted;
 use super::{ModeError, check_interruption, state};
 use crate::camera::Camera;
 use crate::cli::ResumeOptions;
@@ -215,7 +216,7 @@ pub fn journal(options: &ResumeOptions) -> Result<Option<Journal>, JournalError>
     options.replay.as_deref().map(journal::read).transpose()
 }
 
-/// Where a run of this scene begins, of which `journal` is what [`fn@journal`] read.
+/// Where a run with this start begins, of which `journal` is what [`fn@journal`] read.
 ///
 /// # Errors
 ///
@@ -224,15 +225,14 @@ pub fn resumed(
     options: &ResumeOptions,
     journal: Option<Journal>,
     looks: SceneOverrides,
-    scene: &Scene,
-    heights: &[f32],
+    start: &Start,
 ) -> Result<Resumed, ModeError> {
     if let (Some(journal), Some(path)) = (journal, &options.replay) {
-        check_heights(&journal, heights, path)?;
+        check_heights(&journal, &start.heights, path)?;
         return Ok(Resumed::Journal(Box::new(Replay::new(journal, looks)), path.clone()));
     }
     match &options.load_state {
-        Some(path) => Ok(Resumed::State(Box::new(state::read(path, scene)?), path.clone())),
+        Some(path) => Ok(Resumed::State(Box::new(state::read(path, start)?), path.clone())),
         None => Ok(Resumed::No),
     }
 }
@@ -246,7 +246,7 @@ pub fn check_length(there: u64, asked: u64, path: &Path) -> Result<(), JournalEr
     if asked <= there {
         return Ok(());
     }
-    let problem = format!("has {there} frames, and this run asks for {asked}: ask for fewer with --frames");
+    let problem = format!("has {}, and this run asks for {asked}: ask for fewer with --frames", counted(there, "frame"));
     Err(JournalError::Unfit { path: path.to_owned(), problem })
 }
 

@@ -6,8 +6,10 @@ use super::capture::read_texture;
 use super::{ModeError, wait_for};
 use crate::clock::Clock;
 use crate::field::source::State;
-use crate::frame::Frame;
+use crate::field::stamp::StampImage;
+use crate::frame::{Frame, Start};
 use crate::gpu::{Gpu, Readback};
+use crate::io::journal;
 use crate::io::state_file::{self, Part, SavedState, StateFileError};
 use crate::scene::Scene;
 
@@ -29,12 +31,12 @@ const LOOKS: [&str; 13] = [
     "field",
 ];
 
-/// Writes all that the field remembers to a file, with the clock that goes on from there.
+/// Writes all that the field of a frame with this start remembers to a file, with the clock that goes on from there.
 ///
 /// # Errors
 ///
 /// The device was lost, or the file cannot be written.
-pub fn save(gpu: &Gpu, frame: &Frame, clock: &Clock, path: &Path) -> Result<(), ModeError> {
+pub fn save(gpu: &Gpu, frame: &Frame, start: &Start, clock: &Clock, path: &Path) -> Result<(), ModeError> {
     let mut blobs = Vec::new();
     let mut parts = Vec::new();
     for (name, state) in frame.states() {
@@ -50,18 +52,30 @@ pub fn save(gpu: &Gpu, frame: &Frame, clock: &Clock, path: &Path) -> Result<(), 
             blobs.push(wait_for(gpu, &readback)?);
         }
     }
-    let state = SavedState { scene: frame.scene().clone(), clock: clock.clone(), parts, blobs };
+    let (scene, clock) = (frame.scene().clone(), clock.clone());
+    let (heights, images) = (journal::sum_of(&start.heights), sum_of_images(&start.images));
+    let state = SavedState { scene, heights, images, clock, parts, blobs };
     Ok(state_file::write(path, &state)?)
 }
 
-/// Reads a state and checks that a run of this scene may go on from it.
+/// What tells whether two runs have the same images for their stamps: a CRC-32.
+fn sum_of_images(images: &[StampImage]) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    for image in images {
+        sum.update(bytemuck::cast_slice(&image.size));
+        sum.update(bytemuck::cast_slice(&image.values));
+    }
+    sum.finalize()
+}
+
+/// Reads a state and checks that a run with this start may go on from it.
 ///
 /// # Errors
 ///
 /// The file is unfit, or of a scene with another field.
-pub fn read(path: &Path, scene: &Scene) -> Result<SavedState, ModeError> {
+pub fn read(path: &Path, start: &Start) -> Result<SavedState, ModeError> {
     let state = state_file::read(path)?;
-    let saved = &state.scene;
+    let (saved, scene) = (&state.scene, &start.scene);
     let other = |key: &str| {
         Some(format!(
             "is of the scene {}, whose `{key}` is another than in this run's: name the same scene and settings",
@@ -81,6 +95,10 @@ pub fn read(path: &Path, scene: &Scene) -> Result<SavedState, ModeError> {
         ))
     } else if saved.seed != scene.seed {
         Some(format!("is of seed {}, and this run's is {}: say --seed {}", saved.seed, scene.seed, saved.seed))
+    } else if state.heights != journal::sum_of(&start.heights) {
+        Some("started from other heights than this run: put the image or the font back that it was saved with".to_owned())
+    } else if state.images != sum_of_images(&start.images) {
+        Some("had other images to imprint than this run: put those back that it was saved with".to_owned())
     } else {
         None
     };

@@ -92,6 +92,33 @@ fn a_state_of_another_run_is_refused() {
 }
 
 #[test]
+fn a_state_knows_when_an_image_changed() {
+    let directory = tempfile::tempdir().expect("there is a temporary directory");
+    let [height, imprint, state] = ["height.png", "imprint.png", "state"].map(|name| path_in(&directory, name));
+    let out = directory.path().join("out");
+    let draw = |path: &str, at: u32| {
+        let picture = image::GrayImage::from_fn(24, 16, |x, y| image::Luma([if (x, y) == (at, at) { 200 } else { 90 }]));
+        picture.save(path).expect("it can be written");
+    };
+    let scene = path_in(&directory, "scene.toml");
+    let text = format!("version = 1\n[base]\nkind = \"image\"\npath = {height:?}\n[[imprints]]\nimage = {imprint:?}\n");
+    std::fs::write(&scene, text).expect("it can be written");
+    let run = ["--scene", scene.as_str(), "--size", "32x24"];
+    draw(&height, 3);
+    draw(&imprint, 4);
+    capture(&out, &[&run[..], &["--frames", "2", "--save-state", &state]].concat());
+    let resumed = [&run[..], &["--load-state", &state]].concat();
+    capture(&out, &resumed);
+    draw(&height, 4);
+    refused(&resumed, "started from other heights than this run: put the image or the font back");
+    draw(&height, 3);
+    draw(&imprint, 5);
+    refused(&resumed, "had other images to imprint than this run: put those back");
+    draw(&imprint, 4);
+    capture(&out, &resumed);
+}
+
+#[test]
 fn a_state_that_cannot_be_written_is_refused_before_anything_is_made() {
     refused(&["--scene", "relief", "--size", "32x32", "--field", "32", "--save-state", "/no/such/folder/state"], "cannot write");
 }

@@ -208,7 +208,7 @@ impl Open {
         let pacing = if options.frames.is_some() { Pacing::Fixed } else { Pacing::Realtime };
         let (start, player) = start(loaded)?;
         let overrides = options.common.overrides();
-        let resumed = script::resumed(&options.resume, journal, overrides, &start.scene, &start.heights)?;
+        let resumed = script::resumed(&options.resume, journal, overrides, &start)?;
         for path in options.record.iter().chain(&options.save_state) {
             atomic::check(path)?;
         }

@@ -176,7 +176,7 @@ impl Session {
             journal.finish()?;
         }
         if let Some(path) = save_state {
-            state::save(&self.gpu, &self.frame, &self.clock, path)?;
+            state::save(&self.gpu, &self.frame, &self.start, &self.clock, path)?;
         }
         Ok(())
     }
