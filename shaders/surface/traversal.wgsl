@@ -36,8 +36,9 @@ const TRAVERSAL_FIT: i32 = 1;
 const TRAVERSAL_START: i32 = 1;
 
 // The coarsest level at which a falling ray looks at the cell beside the node: in coarser nodes it seldom meets it, and on a large field
-// each look is a miss of the cache. A ray toward a light starts on the surface, and looks at every cell that it stops in.
-const TRAVERSAL_NEAR: i32 = 2;
+// each look is a miss of the cache. 3 was 2 to 4 % faster than 2 at 512², and no slower at 2048². A ray toward a light starts on the
+// surface, and looks at every cell that it stops in.
+const TRAVERSAL_NEAR: i32 = 3;
 
 // How far a ray toward a light is lifted off the surface that it starts from: five times what rounding can do to a height, so
 // that its slope against the light decides the rest, and a tenth of what a shadow may miss.
@@ -189,7 +190,7 @@ fn traversal_cross(way: TraversalWay, rise: f32, t_end: f32, at: TraversalAt) ->
     var found = at;
     found.near = rise >= 0.0 || at.place.level <= TRAVERSAL_NEAR;
     found.by_u = t_border.x <= t_border.y;
-    found.t_cell = select(at.t, max(at.t, min(min(t_border.x, t_border.y), t_end)), found.near);
+    found.t_cell = select(at.t, max(at.t, min(select(t_border.y, t_border.x, found.by_u), t_end)), found.near);
     return found;
 }
 
@@ -207,7 +208,8 @@ fn traversal_visit(way: TraversalWay, place: TraversalPlace, t: f32, height: f32
     let last = traversal_last(way, place);
     let range = traversal_range(way, place);
     let t_border = traversal_borders(way, place.tile, last);
-    let t_out = max(t, min(min(t_border.x, t_border.y), t_end));
+    let by_u = t_border.x <= t_border.y;
+    let t_out = max(t, min(select(t_border.y, t_border.x, by_u), t_end));
     // Advance the ray to the bound ([PDM] fig. 7).
     let falls = rise < 0.0;
     let per_fall = 1.0 / select(1.0, -rise, falls);
@@ -218,7 +220,7 @@ fn traversal_visit(way: TraversalWay, place: TraversalPlace, t: f32, height: f32
         t_under = max(t, (lowered - range.high) * per_fall);
         t_below = min((height - range.low) * per_fall, t_out);
     }
-    return TraversalVisit(last, t_under, t_below, t_out, t_border.x <= t_border.y);
+    return TraversalVisit(last, t_under, t_below, t_out, by_u);
 }
 
 // On from a cell in which nothing is met: to where the ray goes under the bound of its node, or across the node's border.
@@ -244,15 +246,20 @@ fn traversal(ray: Ray) -> Hit {
     let way = traversal_way(ray.lattice, ray.travel);
     var at = traversal_start(way, ray.cell, traversal_begin(way, ray), ray.t_end);
     var steps = 0u;
+    var hits = false;
     while !at.ended && steps < view.step_cap {
         steps += 1u;
         at = traversal_cross(way, ray.rise, ray.t_end, at);
-        let leaf = traversal_leaf(ray, way, at);
-        if leaf.hits {
-            let t = at.t + traversal_root(leaf) * (at.t_cell - at.t);
-            return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, HIT);
+        hits = traversal_leaf(ray, way, at).hits;
+        if hits {
+            break;
         }
         at = traversal_onward(way, ray.height, ray.rise, ray.t_end, at);
+    }
+    // Once, and not in every step, as a processor would that runs all branches: a root and two quotients are a tenth of a step.
+    if hits {
+        let t = at.t + traversal_root(traversal_leaf(ray, way, at)) * (at.t_cell - at.t);
+        return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, HIT);
     }
     if at.ended {
         return end_of(ray, steps);
