@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::table::Row;
+use crate::modes::statistics::counted;
 use crate::surface::Technique;
 
 /// The error at which costs are compared: RMS of positions, texels.
@@ -23,9 +24,9 @@ pub fn sentences(rows: &[Row]) -> String {
         let name = technique.name();
         // Writing to a String cannot fail.
         let _ = match near {
-            None => writeln!(text, "half a texel RMS: {name} is not as near with {most} samples"),
+            None => writeln!(text, "half a texel RMS: {name} is not as near with {}", counted(most.into(), "sample")),
             Some(near) => {
-                let samples = near.samples.unwrap_or(0);
+                let samples = counted(near.samples.unwrap_or(0).into(), "sample");
                 let costs = match (near.surface_ms, exact.surface_ms) {
                     (Some(near), Some(exact)) => {
                         format!("{near:.2} ms, exact takes {exact:.2} ms, {:.2} of it", exact / near)
@@ -35,7 +36,7 @@ pub fn sentences(rows: &[Row]) -> String {
                         format!("{near:.1} steps a pixel, exact takes {exact:.1}")
                     }
                 };
-                writeln!(text, "half a texel RMS: {name} needs {samples} samples and {costs}")
+                writeln!(text, "half a texel RMS: {name} needs {samples} and {costs}")
             }
         };
     }
@@ -59,6 +60,8 @@ mod tests {
         assert_eq!(sentences(&rows[..3]), "");
         let far = [swept(8, 2.0, Some(4.0)), exact.clone()];
         assert_eq!(sentences(&far), "half a texel RMS: pom is not as near with 8 samples\n");
+        let one = [swept(1, 0.2, Some(4.0)), exact.clone()];
+        assert_eq!(sentences(&one), "half a texel RMS: pom needs 1 sample and 4.00 ms, exact takes 8.00 ms, 2.00 of it\n");
         let untimed = [swept(8, 0.2, None), exact];
         assert_eq!(sentences(&untimed), "half a texel RMS: pom needs 8 samples and 10.3 steps a pixel, exact takes 10.3\n");
     }
