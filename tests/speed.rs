@@ -132,6 +132,7 @@ fn a_still_gas_planet_costs_at_most_a_quarter_of_a_busy_one() {
         frame.finish(gpu, encoder);
         frame.health(gpu);
         let times = frame.timer.finished_frame().expect("every pass was waited for");
+        // An empty sum is −0, which would be printed.
         times.iter().filter_map(|time| time.milliseconds).sum::<f64>() + 0.0
     };
     // The least of some: other work on the machine only adds, and to short passes up to ten times what they take.

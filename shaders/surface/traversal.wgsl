@@ -256,7 +256,8 @@ fn traversal(ray: Ray) -> Hit {
         }
         at = traversal_onward(way, ray.height, ray.rise, ray.t_end, at);
     }
-    // Once, and not in every step, as a processor would that runs all branches: a root and two quotients are a tenth of a step.
+    // Once, and not in every step, as a processor would that runs all branches: a root, two quotients and the hit were 37 of
+    // 510 instructions of a step.
     if hits {
         let t = at.t + traversal_root(traversal_leaf(ray, way, at)) * (at.t_cell - at.t);
         return Hit(ray_at(ray, t), ray_height(ray, t), t, steps, HIT);
