@@ -6,11 +6,15 @@
 // Where the picture is split, each side is mapped as what it shows asks for, and the divider stands between them. Legend and
 // divider belong to the shown picture: no channel has them. Composed after common/legend.wgsl.
 
+// Whether the target stores what is written: it is encoded to sRGB here.
+override ENCODES: bool;
+// Whether there are legends or a divider. A software adapter runs both sides of a branch: with the digits of legends that nobody sees a
+// pass took 19 ms in place of 7 (1024×768 on lavapipe).
+override ANNOTATED: bool;
+
 struct PresentParams {
     supersampling: u32,
-    encode: u32,        // 1: the target stores what is written; encode to sRGB here
     divider: u32,       // the first shown column on the right side; 0: the picture is not split, all of it is the left side
-    pad: u32,
     left: PresentSide,
     right: PresentSide,
 }
@@ -23,10 +27,18 @@ struct PresentSide {
 @group(1) @binding(0) var<storage, read> params: PresentParams;
 @group(1) @binding(1) var radiance: texture_2d<f32>;
 
+// What every pixel needs comes along: a software adapter reads a buffer lane by lane.
+struct PresentVaryings {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) supersampling: u32,
+    @location(1) @interpolate(flat) tone_maps: vec2u,   // of the left side and of the right
+}
+
 @vertex
-fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+fn cover(@builtin(vertex_index) index: u32) -> PresentVaryings {
     let corner = vec2f(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0;
-    return vec4f(corner, 0.0, 1.0);
+    let tone_maps = vec2u(params.left.tone_map, params.right.tone_map);
+    return PresentVaryings(vec4f(corner, 0.0, 1.0), params.supersampling, tone_maps);
 }
 
 // Khronos PBR Neutral (2024): leaves colours below 0.8 as they are, and desaturates highlights instead of shifting their hue.
@@ -65,36 +77,43 @@ fn divider(pixel: vec2i, height: i32) -> LegendInk {
     return LegendInk(vec3f(0.75), select(0.0, 0.9, from_line >= -width && from_line < width));
 }
 
-@fragment
-fn present(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let size = vec2i(textureDimensions(radiance) / params.supersampling);
-    let pixel = vec2i(position.xy);
+// What stands over a shown pixel: the legend of its side, and the divider.
+fn annotated(colour: vec3f, pixel: vec2i, size: vec2i) -> vec3f {
     let splits = params.divider > 0u;
-    var side = params.left;
-    var corner = 0;
-    var width = select(size.x, i32(params.divider), splits);
-    if splits && pixel.x >= width {
-        side = params.right;
-        corner = width;
-        width = size.x - corner;
-    }
-    let first = vec2u(position.xy) * params.supersampling;
-    var colour = vec3f(0.0);
-    for (var y = 0u; y < params.supersampling; y++) {
-        for (var x = 0u; x < params.supersampling; x++) {
-            let sample = textureLoad(radiance, first + vec2u(x, y), 0).rgb;
-            // Mapped before the mean, or one bright highlight decides the pixel.
-            colour += select(clamp(sample, vec3f(0.0), vec3f(1.0)), tone_map(sample), side.tone_map == 1u);
-        }
-    }
-    colour /= f32(params.supersampling * params.supersampling);
-    if side.legend > 0.0 {
-        let ink = legend(pixel - vec2i(corner, 0), vec2i(width, size.y), side.legend);
-        colour = mix(colour, ink.colour, ink.cover);
+    let is_right = splits && pixel.x >= i32(params.divider);
+    let corner = select(0, i32(params.divider), is_right);
+    let width = select(select(size.x, i32(params.divider), splits), size.x - corner, is_right);
+    let top = select(params.left.legend, params.right.legend, is_right);
+    var shown = colour;
+    if top > 0.0 {
+        let ink = legend(pixel - vec2i(corner, 0), vec2i(width, size.y), top);
+        shown = mix(shown, ink.colour, ink.cover);
     }
     if splits {
         let ink = divider(pixel, size.y);
-        colour = mix(colour, ink.colour, ink.cover);
+        shown = mix(shown, ink.colour, ink.cover);
     }
-    return vec4f(select(colour, srgb(colour), params.encode == 1u), 1.0);
+    return shown;
+}
+
+@fragment
+fn present(varyings: PresentVaryings) -> @location(0) vec4f {
+    let pixel = vec2i(varyings.position.xy);
+    let supersampling = varyings.supersampling;
+    let is_right = ANNOTATED && params.divider > 0u && pixel.x >= i32(params.divider);
+    let maps = select(varyings.tone_maps.x, varyings.tone_maps.y, is_right) == 1u;
+    let first = vec2u(pixel) * supersampling;
+    var colour = vec3f(0.0);
+    for (var y = 0u; y < supersampling; y++) {
+        for (var x = 0u; x < supersampling; x++) {
+            let sample = textureLoad(radiance, first + vec2u(x, y), 0).rgb;
+            // Mapped before the mean, or one bright highlight decides the pixel.
+            colour += select(clamp(sample, vec3f(0.0), vec3f(1.0)), tone_map(sample), maps);
+        }
+    }
+    colour /= f32(supersampling * supersampling);
+    if ANNOTATED {
+        colour = annotated(colour, pixel, vec2i(textureDimensions(radiance) / supersampling));
+    }
+    return vec4f(select(colour, srgb(colour), ENCODES), 1.0);
 }

@@ -9,12 +9,8 @@ use crate::surface::{Display, Shows};
 pub struct PresentParams {
     /// Traced pixels along each side of a shown one.
     pub supersampling: u32,
-    /// 1: the target stores what is written; the shader encodes to sRGB.
-    pub encode: u32,
     /// The first shown column on the right side; 0: the picture is not split, all of it is the left side.
     pub divider: u32,
-    /// Zero.
-    pub pad: u32,
     /// How the left side is shown.
     pub left: PresentSide,
     /// How the right side is shown.
@@ -40,7 +36,8 @@ impl PresentSide {
 
 /// Tone-maps radiance to a target.
 pub struct Present {
-    pipeline: wgpu::RenderPipeline,
+    /// Without and with legends and a divider.
+    pipelines: [wgpu::RenderPipeline; 2],
     layout: BindingLayout,
     target: wgpu::TextureFormat,
 }
@@ -52,41 +49,47 @@ pub struct PresentSet {
 }
 
 impl Present {
-    /// Builds the pipeline for targets of a format.
+    /// Builds the pipelines for targets of a format.
     ///
     /// # Errors
     ///
     /// The shader does not compile.
     pub fn new(gpu: &Gpu, target: wgpu::TextureFormat) -> Result<Self, ShaderError> {
-        let layout = BindingLayout::new(gpu, "present", wgpu::ShaderStages::FRAGMENT, &[Binding::Uniform, Binding::Float(false)]);
+        let layout =
+            BindingLayout::new(gpu, "present", wgpu::ShaderStages::VERTEX_FRAGMENT, &[Binding::Uniform, Binding::Float(false)]);
         let module = gpu.shaders.module(gpu, "present", &["common/heat", "common/legend", "present"])?;
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("present"),
             bind_group_layouts: &[None, Some(&layout.layout)],
             immediate_size: 0,
         });
-        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("present"),
-            layout: Some(&pipeline_layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("cover"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("present"),
-                compilation_options: Default::default(),
-                targets: &[Some(target.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
+        let pipelines = [false, true].map(|annotated| {
+            let switches = [("ENCODES", !target.is_srgb()), ("ANNOTATED", annotated)];
+            let constants = switches.map(|(name, on)| (name, f64::from(u8::from(on))));
+            let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("present"),
+                layout: Some(&pipeline_layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some("cover"),
+                    compilation_options: options.clone(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some("present"),
+                    compilation_options: options,
+                    targets: &[Some(target.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
         });
-        Ok(Self { pipeline, layout, target })
+        Ok(Self { pipelines, layout, target })
     }
 
     /// The format of its targets.
@@ -114,15 +117,14 @@ impl Present {
         let right = display.split.map_or(display.shows, |split| split.shows);
         let params = PresentParams {
             supersampling,
-            encode: u32::from(!self.target.is_srgb()),
             divider: display.divider(width, 1).unwrap_or(0),
-            pad: 0,
             left: PresentSide::new(display.shows, display.gain),
             right: PresentSide::new(right, display.gain),
         };
+        let is_annotated = params.divider > 0 || params.left.legend > 0.0;
         set.params.write(recorder.gpu, &params);
         recorder.render("present", target, |pass| {
-            pass.set_pipeline(&self.pipeline);
+            pass.set_pipeline(&self.pipelines[usize::from(is_annotated)]);
             pass.set_bind_group(1, &set.group, &[]);
             pass.draw(0..3, 0..1);
         });

@@ -249,7 +249,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("NoiseGears", layout!(NoiseGears { half_module, edge, top })),
         ("NoiseGear", layout!(NoiseGear { centre, rotation, teeth, spokes })),
         ("NoiseDunes", layout!(NoiseDunes { turns, phase, crest, meander, variety, ripple_turns, ripple_phase, ripple_height })),
-        ("PresentParams", layout!(PresentParams { supersampling, encode, divider, left, right })),
+        ("PresentParams", layout!(PresentParams { supersampling, divider, left, right })),
         ("PresentSide", layout!(PresentSide { tone_map, legend })),
         ("Ray", layout!(Ray { lattice, travel, height, rise, cell, t_end, ends })),
         ("Hit", layout!(Hit { lattice, height, t, steps, status })),

@@ -8,6 +8,13 @@ const LEGEND_GLYPHS = array<u32, 11>(
 );
 const LEGEND_POINT: u32 = 10u;
 
+// The bar's edges, dots from the right and from above. Four numbers, not a vector: naga 30 finds a function invalid that takes constant
+// vectors apart, once a pipeline has constants of its own.
+const LEGEND_BAR_RIGHT: i32 = 6;
+const LEGEND_BAR_LEFT: i32 = 14;
+const LEGEND_BAR_TOP: i32 = 10;
+const LEGEND_BAR_BOTTOM: i32 = 74;
+
 // What is drawn, and how much of what is beneath it covers.
 struct LegendInk {
     colour: vec3f,
@@ -66,17 +73,16 @@ fn legend(pixel: vec2i, size: vec2i, top: f32) -> LegendInk {
         return none;
     }
     let left = 38;
-    let bar = vec4i(6, 10, 14, 74); // from the right: right and left edge; from above: the top and the bottom, dots
     if dot.x > left || dot.y > 82 || dot.x < 2 || dot.y < 2 {
         return none;
     }
-    let share = f32(bar.w - dot.y) / f32(bar.w - bar.y);
-    if dot.x >= bar.x && dot.x < bar.z && dot.y >= bar.y && dot.y <= bar.w {
+    let share = f32(LEGEND_BAR_BOTTOM - dot.y) / f32(LEGEND_BAR_BOTTOM - LEGEND_BAR_TOP);
+    if dot.x >= LEGEND_BAR_RIGHT && dot.x < LEGEND_BAR_LEFT && dot.y >= LEGEND_BAR_TOP && dot.y <= LEGEND_BAR_BOTTOM {
         return LegendInk(heat(share), 1.0);
     }
     for (var mark = 0; mark <= 2; mark++) {
-        let at = mix(f32(bar.w), f32(bar.y), 0.5 * f32(mark));
-        let origin = vec2i(bar.z + 2, i32(at) - 2);
+        let at = mix(f32(LEGEND_BAR_BOTTOM), f32(LEGEND_BAR_TOP), 0.5 * f32(mark));
+        let origin = vec2i(LEGEND_BAR_LEFT + 2, i32(at) - 2);
         if legend_number(top * 0.5 * f32(mark), vec2i(origin.x - dot.x, dot.y - origin.y)) {
             return LegendInk(vec3f(0.9), 1.0);
         }
