@@ -220,6 +220,8 @@ fn twins() -> Vec<(&'static str, Layout)> {
                 water_absorption,
                 slab_penumbra,
                 water_scatter,
+                core_centre,
+                core_radius,
                 outline,
             }),
         ),

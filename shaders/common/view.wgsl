@@ -122,6 +122,8 @@ struct View {
     water_absorption: vec3f,     // of red, green and blue in a metre of the water that covers the field
     slab_penumbra: f32,          // tangent of half the angle of the light's disc, as slabs see it
     water_scatter: vec3f,        // what deep water gives back of them
+    core_centre: vec3f,          // of the ball in a closed shell that no ray reaches, world: see src/surface/shell.rs
+    core_radius: f32,            // 0: there is none
     outline: array<vec2f, 9>,    // of the plane in the picture, in clip space: see src/surface/outline.rs
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::mesh::Vertex;
 
@@ -89,4 +89,69 @@ pub fn inward(vertices: &[Vertex]) -> Vec<Vec3> {
         -middle * (1.0 / cosine.max(1.0 / INWARD_MAX))
     };
     welded.iter().map(|place| normals.get(place).map_or(Vec3::ZERO, |normals| mitre(normals))).collect()
+}
+
+/// A ball deep in a closed mesh: every way to it leads through the floor of the shell, where a ray ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Core {
+    /// World, metres.
+    pub centre: Vec3,
+    /// Metres; 0 where there is none.
+    pub radius: f32,
+}
+
+/// The core of a shell `depth_metres` deep: as large as fits about the mean of the vertices. There is none where the mesh has a border,
+/// its floor does not go once round that point, as that of a torus, or is turned inside out.
+pub fn core(vertices: &[Vertex], indices: &[u32], depth_metres: f32) -> Core {
+    let is_open = triangles(vertices, indices).iter().any(|triangle| triangle.borders != 0);
+    if is_open || vertices.is_empty() {
+        return Core::default();
+    }
+    let tops: Vec<DVec3> = vertices.iter().map(|vertex| vertex.position.as_dvec3()).collect();
+    let depth = f64::from(depth_metres);
+    let floors: Vec<DVec3> = tops.iter().zip(inward(vertices)).map(|(top, way)| *top + depth * way.as_dvec3()).collect();
+    let centre = (tops.iter().sum::<DVec3>() / tops.len() as f64).as_vec3();
+    let faces = |corners: &[DVec3]| -> Vec<[DVec3; 3]> {
+        let from_centre = |index: &u32| corners[*index as usize] - centre.as_dvec3();
+        indices.chunks_exact(3).map(|face| [from_centre(&face[0]), from_centre(&face[1]), from_centre(&face[2])]).collect()
+    };
+    let (tops, floors) = (faces(&tops), faces(&floors));
+    let turns = winding_number(&floors);
+    if turns.abs() != 1.0 || turns != winding_number(&tops) {
+        return Core::default();
+    }
+    let radius = floors.iter().map(distance_to).fold(f64::INFINITY, f64::min);
+    // Smaller by far more than rounding, in the shader as here.
+    Core { centre, radius: (0.999 * radius) as f32 }
+}
+
+/// How far a triangle is from the origin.
+fn distance_to(&[a, b, c]: &[DVec3; 3]) -> f64 {
+    let edges = [(a, b), (b, c), (c, a)];
+    let to_edge = |(from, to): (DVec3, DVec3)| {
+        let along = to - from;
+        let share = -from.dot(along) / along.length_squared();
+        // An edge without length is one point.
+        let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+        (from + share * along).length()
+    };
+    let nearest = edges.map(to_edge).into_iter().fold(f64::INFINITY, f64::min);
+    let normal = (b - a).cross(c - a);
+    let is_over = edges.iter().all(|(from, to)| from.cross(*to).dot(normal) >= 0.0);
+    match normal.try_normalize() {
+        Some(normal) if is_over => nearest.min(normal.dot(a).abs()),
+        _ => nearest,
+    }
+}
+
+/// How often a closed surface goes round the origin, from the solid angles of its faces (Van Oosterom and Strackee 1983); NaN where it
+/// goes through it.
+fn winding_number(faces: &[[DVec3; 3]]) -> f64 {
+    let half_angle = |[a, b, c]: &[DVec3; 3]| {
+        let [la, lb, lc] = [a.length(), b.length(), c.length()];
+        let scale = la * lb * lc + a.dot(*b) * lc + b.dot(*c) * la + c.dot(*a) * lb;
+        a.dot(b.cross(*c)).atan2(scale)
+    };
+    let turns = faces.iter().map(half_angle).sum::<f64>() / std::f64::consts::TAU;
+    if (turns - turns.round()).abs() < 1e-3 { turns.round() } else { f64::NAN }
 }

@@ -1,7 +1,7 @@
 //! Stage: what the camera sees beside and instead of the bare plane: a mesh that carries the relief, flat or as a shell, further reliefs,
 //! and balls, with a depth buffer.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -45,6 +45,22 @@ struct Carrier {
 struct Body {
     mesh: Mesh,
     buffers: MeshBuffers,
+    /// What is hidden in its shell, at the depth at which it was last asked for.
+    core: Cell<Option<(f32, shell::Core)>>,
+}
+
+impl Body {
+    /// The core of its shell, `depth_metres` deep; of one that moves, none.
+    fn core(&self, depth_metres: f32) -> shell::Core {
+        let known = self.core.get().filter(|(depth, _)| *depth == depth_metres);
+        let found = || match self.mesh.skin {
+            Some(_) => shell::Core::default(),
+            None => shell::core(&self.mesh.vertices, &self.mesh.indices, depth_metres),
+        };
+        let core = known.map_or_else(found, |(_, core)| core);
+        self.core.set(Some((depth_metres, core)));
+        core
+    }
 }
 
 /// One draw: what, of which relief, which triangles, seen through which view.
@@ -112,7 +128,7 @@ impl Stage {
             carrier.mesh = mesh.map(|mesh| {
                 let can_be_shell = mesh.triangle_count() <= shell::TRIANGLES_MAX;
                 let buffers = MeshBuffers::new(gpu, &self.mesh_layout, &mesh.vertices, &mesh.indices, can_be_shell);
-                Body { mesh, buffers }
+                Body { mesh, buffers, core: Cell::default() }
             });
         }
     }
@@ -210,6 +226,10 @@ impl Stage {
             }];
         };
         let settings = seen.scene.mesh.as_ref().map(|mesh| mesh.materials.as_slice()).unwrap_or_default();
+        // A floor of several depths has gaps.
+        let is_one_floor = settings.iter().all(|settings| settings.depth_metres.is_none());
+        let core = if seen.scene.trace.shell && is_one_floor { body.core(view.depth_metres) } else { shell::Core::default() };
+        let view = View { core_centre: core.centre.to_array(), core_radius: core.radius, ..view };
         let parts = body.mesh.parts.iter().flat_map(|part| {
             let mut view = view;
             if let Some(settings) = settings.iter().find(|settings| settings.name == part.material) {
@@ -258,7 +278,9 @@ impl Stage {
     /// Moves animated meshes to where they are at a time.
     fn pose(&self, gpu: &Gpu, time_seconds: f64) {
         for carrier in &self.carriers {
-            let Some(Body { mesh, buffers }) = carrier.mesh.as_ref().filter(|body| body.mesh.skin.is_some()) else { continue };
+            let Some(Body { mesh, buffers, .. }) = carrier.mesh.as_ref().filter(|body| body.mesh.skin.is_some()) else {
+                continue;
+            };
             let vertices = mesh.posed(time_seconds);
             buffers.pose(gpu, &vertices, &mesh.indices);
             if let Some(micropolygons) = &carrier.micropolygons {

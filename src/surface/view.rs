@@ -118,6 +118,8 @@ pub struct View {
     pub slab_penumbra: f32,
     pub water_scatter: [f32; 3],
     pub pad_water: u32,
+    pub core_centre: [f32; 3],
+    pub core_radius: f32,
     pub outline: [[f32; 2]; outline::CORNERS_MAX],
     pub pad_outline: [u32; 2],
 }

@@ -7,7 +7,7 @@ use rilievo::mesh::{Mesh, Shape};
 use rilievo::modes::capture::PICTURE_FORMAT;
 use rilievo::reference::shell::{self, Tetrahedron};
 use rilievo::reference::{Addressing, HeightField};
-use rilievo::surface::shell::{inward, triangles};
+use rilievo::surface::shell::{Core, core, inward, triangles};
 
 use crate::support::fields::Kind;
 use crate::support::gpu::gpu;
@@ -212,6 +212,38 @@ fn the_shell_of_a_closed_shape_has_no_border_and_no_gap() {
             assert!(same.clone().all(|(_, other)| other == way), "{}", shape.name());
             assert!(same.clone().all(|(other, _)| (other.normal.dot(*way) + 1.0).abs() < 0.02), "{}: {way}", shape.name());
         }
+    }
+}
+
+/// The ball that hides what is behind it: in every closed shape but the torus, whose middle is outside.
+#[test]
+fn the_core_of_a_shell_lies_deeper_than_its_floor_and_only_closed_shapes_have_one() {
+    let depth = 0.1;
+    for shape in Shape::ALL {
+        let mesh = shape.mesh([1.0, 1.0]);
+        let Core { centre, radius } = core(&mesh.vertices, &mesh.indices, depth);
+        assert_eq!(radius > 0.0, !matches!(shape, Shape::Plane | Shape::Torus), "{}: {radius}", shape.name());
+        let ways = inward(&mesh.vertices);
+        let floor = |index: u32| {
+            let way = ways[index as usize];
+            (mesh.vertices[index as usize].position + depth * way).as_dvec3() - centre.as_dvec3()
+        };
+        let (mut nearest, steps) = (f64::INFINITY, 8);
+        for face in mesh.indices.chunks_exact(3) {
+            let [a, b, c] = [floor(face[0]), floor(face[1]), floor(face[2])];
+            for i in 0..=steps {
+                for j in 0..=steps - i {
+                    let [u, v] = [i, j].map(|n| f64::from(n) / f64::from(steps));
+                    nearest = nearest.min((a + u * (b - a) + v * (c - a)).length());
+                }
+            }
+        }
+        assert!(f64::from(radius) < nearest, "{}: {radius}, and the floor is at {nearest}", shape.name());
+        // The floor of a ball or a cube is hardly farther.
+        let touches = if radius > 0.0 { 0.97 * nearest } else { 0.0 };
+        assert!(f64::from(radius) >= touches, "{}: {radius} of {nearest}", shape.name());
+        // Deeper than its middle it would be inside out.
+        assert_eq!(core(&mesh.vertices, &mesh.indices, 0.9).radius, 0.0, "{}", shape.name());
     }
 }
 
