@@ -236,7 +236,7 @@ fn twins() -> Vec<(&'static str, Layout)> {
         ("Blocks", layout!(Blocks { first, count })),
         ("ComposeParams", layout!(ComposeParams { blocks, size, tiles_per_row, layers })),
         ("ComposeLayer", layout!(ComposeLayer { amplitude, blend })),
-        ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size, wrap })),
+        ("NormalsParams", layout!(NormalsParams { blocks, slope_per_height, size })),
         ("NormalMipsParams", layout!(NormalMipsParams { blocks, source_size, size, last_weight })),
         ("BoundsParams", layout!(BoundsParams { blocks, source_size, source_origin, size, origin, wrap })),
         ("PyramidParams", layout!(PyramidParams { blocks, source_size, size, wrap })),

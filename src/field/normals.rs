@@ -5,7 +5,7 @@
 
 use super::blocks::{BlockList, Blocks};
 use super::{Field, Region};
-use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform};
+use crate::gpu::{Binding, BindingLayout, Gpu, Kernel, List, Recorder, ShaderError, Uniform, nearest_sampler};
 use crate::scene::Addressing;
 
 /// Bytes a texel by design: height in, normal out.
@@ -21,10 +21,6 @@ pub struct NormalsParams {
     pub slope_per_height: [f32; 2],
     /// Width and height of the field, texels.
     pub size: [u32; 2],
-    /// 1 where the field wraps, 0 where it clamps.
-    pub wrap: u32,
-    /// Zero.
-    pub pad: u32,
 }
 
 /// Derives unit normals from heights.
@@ -39,7 +35,6 @@ pub struct NormalsSet {
     blocks: List<u32>,
     group: wgpu::BindGroup,
     size: [u32; 2],
-    addressing: Addressing,
 }
 
 impl NormalsSet {
@@ -68,6 +63,7 @@ impl Normals {
                 Binding::Float(false),
                 Binding::Storage(wgpu::TextureFormat::Rgba16Float, wgpu::StorageTextureAccess::WriteOnly),
                 Binding::Read,
+                Binding::Sampler(false),
             ],
         );
         let kernel = Kernel::new(
@@ -92,9 +88,10 @@ impl Normals {
                 wgpu::BindingResource::TextureView(&field.height.view),
                 wgpu::BindingResource::TextureView(&field.normal.levels[0]),
                 blocks.buffer.as_entire_binding(),
+                wgpu::BindingResource::Sampler(&nearest_sampler(gpu, field.addressing == Addressing::Wrap)),
             ],
         );
-        NormalsSet { params, blocks, group, size: field.size, addressing: field.addressing }
+        NormalsSet { params, blocks, group, size: field.size }
     }
 
     /// Derives the regions.
@@ -102,13 +99,7 @@ impl Normals {
         let mut list = BlockList::default();
         let Some(dispatch) = list.plan(regions, set.size, Self::WORKGROUP) else { return };
         set.blocks.write(recorder.gpu, &list.items);
-        let params = NormalsParams {
-            blocks: dispatch.blocks,
-            slope_per_height,
-            size: set.size,
-            wrap: u32::from(set.addressing == Addressing::Wrap),
-            pad: 0,
-        };
+        let params = NormalsParams { blocks: dispatch.blocks, slope_per_height, size: set.size };
         set.params.write(recorder.gpu, &params);
         recorder.compute("normals", |pass| {
             let [x, y] = dispatch.workgroups;

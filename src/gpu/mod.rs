@@ -18,7 +18,7 @@ pub use kernel::{Binding, BindingLayout, Kernel};
 pub use list::List;
 pub use readback::Readback;
 pub use shader::{Library, ShaderError};
-pub use texture::{Contract, Role, Texture};
+pub use texture::{Contract, Role, Texture, nearest_sampler};
 pub use timer::{PassTime, Recorder, Timer};
 pub use uniform::{Uniform, UniformSlots};
 

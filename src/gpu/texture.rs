@@ -119,6 +119,17 @@ impl<R: Role> Texture<R> {
     }
 }
 
+/// A sampler that does not filter: what gathers go through. Beyond the border it goes on at the opposite one, or stays at the last texel.
+pub fn nearest_sampler(gpu: &Gpu, wraps: bool) -> wgpu::Sampler {
+    let mode = if wraps { wgpu::AddressMode::Repeat } else { wgpu::AddressMode::ClampToEdge };
+    gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("nearest"),
+        address_mode_u: mode,
+        address_mode_v: mode,
+        ..Default::default()
+    })
+}
+
 /// Levels of a full chain of floor sizes, down to 1×1.
 pub fn mip_level_count(size: [u32; 2]) -> u32 {
     u32::BITS - size[0].max(size[1]).max(1).leading_zeros()

@@ -4,7 +4,7 @@ use glam::{DMat3, DMat4, DVec2, DVec4};
 
 use crate::camera::Camera;
 use crate::field::{base, material};
-use crate::gpu::{Binding, BindingLayout, Gpu, Uniform};
+use crate::gpu::{Binding, BindingLayout, Gpu, Uniform, nearest_sampler};
 use crate::scene::{Addressing, DirectionalLight, LIGHTS_MAX, Scene};
 
 use super::level_of_detail::ViewDetail;
@@ -304,12 +304,7 @@ impl ViewSet {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
-        let nearest = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("nearest"),
-            address_mode_u: address_mode,
-            address_mode_v: address_mode,
-            ..Default::default()
-        });
+        let nearest = nearest_sampler(gpu, addressing == Addressing::Wrap);
         let uniform = Uniform::new(gpu, "view");
         let [bilinear, nearest] = [&bilinear, &nearest].map(wgpu::BindingResource::Sampler);
         let group = layout.bind(gpu, &[uniform.buffer.as_entire_binding(), bilinear, nearest]);
