@@ -16,6 +16,7 @@ use crate::field::source::{self, Health, Source, State};
 use crate::field::stamp::StampImage;
 use crate::field::{self, Cover, Dirty, Field, Region, Stack, base, bounds, material, normal_mips, normals, pyramid, stack};
 use crate::gpu::{BindingLayout, Gpu, Recorder, Role, ShaderError, Texture, Timer};
+use crate::io::sums::Sums;
 use crate::mesh::{Mesh, shapes};
 use crate::present::{Present, PresentSet};
 use crate::scene::{Plane, Scene};
@@ -86,6 +87,11 @@ impl Start {
     /// The same beside these reliefs, as many as the scene has.
     pub fn with_reliefs(self, reliefs: Vec<Start>) -> Self {
         Self { reliefs, ..self }
+    }
+
+    /// What tells it from another start.
+    pub fn sums(&self) -> Sums {
+        Sums::of(&self.heights, &self.images)
     }
 
     /// The same with images for its stamps.

@@ -13,13 +13,14 @@ use serde::{Deserialize, Serialize};
 
 use super::atomic::{Partial, WriteError};
 use super::height_image::explain;
+use super::sums::Sums;
 use crate::camera::Camera;
 use crate::clock::Tick;
 use crate::scene::Scene;
 use crate::stroke::Stroke;
 
 /// The version of the format that this program reads and writes.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What a journal begins with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,8 +32,8 @@ struct Header {
     program: String,
     /// The scene that it begins with.
     scene: Scene,
-    /// CRC-32 of the heights that the field started from: an image may have changed since.
-    heights: u32,
+    /// What the field started from.
+    start: Sums,
 }
 
 /// One frame of a journal.
@@ -118,15 +119,10 @@ pub enum JournalError {
 pub struct Journal {
     /// The scene that it begins with.
     pub scene: Scene,
-    /// [`sum_of`] the heights that the field started from.
-    pub heights: u32,
+    /// What the field started from.
+    pub start: Sums,
     /// Its frames, in order.
     pub entries: Vec<Entry>,
-}
-
-/// What tells whether two fields started from the same heights: a CRC-32.
-pub fn sum_of(heights: &[f32]) -> u32 {
-    crc32fast::hash(bytemuck::cast_slice(heights))
 }
 
 /// Reads a journal. Nothing is made of a file that is not whole.
@@ -168,7 +164,7 @@ pub fn read(path: &Path) -> Result<Journal, JournalError> {
         .enumerate()
         .map(|(number, line)| serde_json::from_str(line).map_err(|error| malformed(number + 1, &error)))
         .collect::<Result<Vec<Entry>, _>>()?;
-    Ok(Journal { scene: header.scene, heights: header.heights, entries })
+    Ok(Journal { scene: header.scene, start: header.start, entries })
 }
 
 /// A journal that is being written, beside its place until it is whole.
@@ -182,19 +178,19 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Begins one, of a field that starts as this scene from these heights.
+    /// Begins one, of a field that starts as this scene, from what has these sums.
     ///
     /// # Errors
     ///
     /// No file can be made there.
-    pub fn create(path: &Path, scene: &Scene, heights: &[f32]) -> Result<Self, WriteError> {
+    pub fn create(path: &Path, scene: &Scene, start: Sums) -> Result<Self, WriteError> {
         let file = BufWriter::new(Partial::beside(path)?);
         let mut writer = Self { path: path.to_owned(), file, frames: 0, scene: scene.clone(), camera: None };
         writer.line(&Header {
             rilievo_journal: VERSION,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.clone(),
-            heights: sum_of(heights),
+            start,
         })?;
         Ok(writer)
     }

@@ -18,6 +18,7 @@ mod resample;
 pub mod scene_file;
 pub mod shader_folder;
 pub mod state_file;
+pub mod sums;
 
 use std::io::Write as _;
 

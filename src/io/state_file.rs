@@ -11,11 +11,12 @@ use serde::{Deserialize, Serialize};
 
 use super::atomic::{self, WriteError};
 use super::height_image::explain;
+use super::sums::Sums;
 use crate::clock::Clock;
 use crate::scene::Scene;
 
 /// The version of the format that this program reads and writes.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What every state file begins with.
 const MAGIC: &[u8] = b"rilievo state\n";
@@ -28,10 +29,8 @@ const HEADER_BYTES_MAX: u64 = 1 << 24;
 pub struct SavedState {
     /// The scene as it was.
     pub scene: Scene,
-    /// [`journal::sum_of`](super::journal::sum_of) the heights that the field started from: an image or a font may have changed since.
-    pub heights: u32,
-    /// The same of the images that stamps have for their form.
-    pub images: u32,
+    /// What the field started from.
+    pub start: Sums,
     /// Its clock: the next frame comes after the last that was shown.
     pub clock: Clock,
     /// What the field and each source remember.
@@ -60,8 +59,7 @@ struct Header {
     version: u32,
     program: String,
     scene: Scene,
-    heights: u32,
-    images: u32,
+    start: Sums,
     clock: Clock,
     parts: Vec<Part>,
     blob_bytes: Vec<u64>,
@@ -99,8 +97,7 @@ pub fn write(path: &Path, state: &SavedState) -> Result<(), WriteError> {
             version: VERSION,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             scene: state.scene.clone(),
-            heights: state.heights,
-            images: state.images,
+            start: state.start,
             clock: state.clock.clone(),
             parts: state.parts.clone(),
             blob_bytes: state.blobs.iter().map(|blob| blob.len() as u64).collect(),
@@ -166,8 +163,8 @@ pub fn read(path: &Path) -> Result<SavedState, StateFileError> {
     if !rest.is_empty() {
         return Err(truncated());
     }
-    let Header { scene, heights, images, clock, parts, .. } = header;
-    Ok(SavedState { scene, heights, images, clock, parts, blobs })
+    let Header { scene, start, clock, parts, .. } = header;
+    Ok(SavedState { scene, start, clock, parts, blobs })
 }
 
 #[cfg(test)]
@@ -183,8 +180,7 @@ mod tests {
             Part { name: "field".to_owned(), textures: vec![("R32Float".to_owned(), 2, 1)], buffers: vec![3], numbers: vec![7] };
         SavedState {
             scene: Scene::default(),
-            heights: 1,
-            images: 2,
+            start: Sums { heights: 1, images: 2 },
             clock,
             parts: vec![part],
             blobs: vec![vec![1, 2, 3, 4, 5, 6, 7, 8], vec![9, 10, 11]],
@@ -224,13 +220,13 @@ mod tests {
         let path = directory.path().join("state");
         write(&path, &saved()).unwrap();
         let whole = std::fs::read(&path).unwrap();
-        let at = whole.windows(11).position(|window| window == b"\"version\":2").unwrap();
+        let at = whole.windows(11).position(|window| window == b"\"version\":3").unwrap();
         for version in [1, 9] {
             let mut other = whole.clone();
             other[at + 10] = b'0' + version;
             std::fs::write(&path, &other).unwrap();
             let sentence = read(&path).expect_err("it is another version").to_string();
-            assert!(sentence.contains(&format!("is of version {version}, and this program reads version 2")), "{sentence}");
+            assert!(sentence.contains(&format!("is of version {version}, and this program reads version 3")), "{sentence}");
         }
     }
 }

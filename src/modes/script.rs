@@ -220,7 +220,7 @@ pub fn journal(options: &ResumeOptions) -> Result<Option<Journal>, JournalError>
 ///
 /// # Errors
 ///
-/// The state is unfit, or the journal began with other heights than these.
+/// The state is unfit, or the journal began with other heights or images than these.
 pub fn resumed(
     options: &ResumeOptions,
     journal: Option<Journal>,
@@ -228,7 +228,9 @@ pub fn resumed(
     start: &Start,
 ) -> Result<Resumed, ModeError> {
     if let (Some(journal), Some(path)) = (journal, &options.replay) {
-        check_heights(&journal, &start.heights, path)?;
+        if let Some(problem) = journal.start.problem(start.sums()) {
+            return Err(JournalError::Unfit { path: path.clone(), problem: problem.to_owned() }.into());
+        }
         return Ok(Resumed::Journal(Box::new(Replay::new(journal, looks)), path.clone()));
     }
     match &options.load_state {
@@ -247,13 +249,5 @@ pub fn check_length(there: u64, asked: u64, path: &Path) -> Result<(), JournalEr
         return Ok(());
     }
     let problem = format!("has {}, and this run asks for {asked}: ask for fewer with --frames", counted(there, "frame"));
-    Err(JournalError::Unfit { path: path.to_owned(), problem })
-}
-
-fn check_heights(journal: &Journal, heights: &[f32], path: &Path) -> Result<(), JournalError> {
-    if journal.heights == journal::sum_of(heights) {
-        return Ok(());
-    }
-    let problem = "began with other heights than its scene has now: put the images back that it was recorded with".to_owned();
     Err(JournalError::Unfit { path: path.to_owned(), problem })
 }

@@ -6,10 +6,8 @@ use super::capture::read_texture;
 use super::{ModeError, wait_for};
 use crate::clock::Clock;
 use crate::field::source::State;
-use crate::field::stamp::StampImage;
 use crate::frame::{Frame, Start};
 use crate::gpu::{Gpu, Readback};
-use crate::io::journal;
 use crate::io::state_file::{self, Part, SavedState, StateFileError};
 use crate::scene::Scene;
 
@@ -53,19 +51,8 @@ pub fn save(gpu: &Gpu, frame: &Frame, start: &Start, clock: &Clock, path: &Path)
         }
     }
     let (scene, clock) = (frame.scene().clone(), clock.clone());
-    let (heights, images) = (journal::sum_of(&start.heights), sum_of_images(&start.images));
-    let state = SavedState { scene, heights, images, clock, parts, blobs };
+    let state = SavedState { scene, start: start.sums(), clock, parts, blobs };
     Ok(state_file::write(path, &state)?)
-}
-
-/// What tells whether two runs have the same images for their stamps: a CRC-32.
-fn sum_of_images(images: &[StampImage]) -> u32 {
-    let mut sum = crc32fast::Hasher::new();
-    for image in images {
-        sum.update(bytemuck::cast_slice(&image.size));
-        sum.update(bytemuck::cast_slice(&image.values));
-    }
-    sum.finalize()
 }
 
 /// Reads a state and checks that a run with this start may go on from it.
@@ -95,12 +82,8 @@ pub fn read(path: &Path, start: &Start) -> Result<SavedState, ModeError> {
         ))
     } else if saved.seed != scene.seed {
         Some(format!("is of seed {}, and this run's is {}: say --seed {}", saved.seed, scene.seed, saved.seed))
-    } else if state.heights != journal::sum_of(&start.heights) {
-        Some("started from other heights than this run: put the image or the font back that it was saved with".to_owned())
-    } else if state.images != sum_of_images(&start.images) {
-        Some("had other images to imprint than this run: put those back that it was saved with".to_owned())
     } else {
-        None
+        state.start.problem(start.sums()).map(str::to_owned)
     };
     match problem {
         Some(problem) => Err(StateFileError::Unfit { path: path.to_owned(), problem }.into()),

@@ -2,6 +2,11 @@
 
 use std::path::Path;
 
+use rilievo::camera::Camera;
+use rilievo::clock::{Clock, Pace};
+use rilievo::io::journal;
+use rilievo::io::scene_file::{self, SceneOverrides};
+
 use super::{capture, rilievo};
 
 const SMALL: &[&str] = &["--size", "96x64", "--field", "64", "--channels", "color,position,normal,height,steps"];
@@ -91,11 +96,25 @@ fn a_state_of_another_run_is_refused() {
     refused(&["--load-state", "/no/such/file"], "cannot read the state /no/such/file");
 }
 
+/// A journal of so many frames of a scene, as a window would record it that nobody touches.
+fn record(path: &str, scene: &str, frames: u32) {
+    let loaded = scene_file::load(scene, &SceneOverrides::default(), [32, 24]).expect("it is a scene");
+    let (start, _) = rilievo::modes::start(&loaded).expect("its images are whole");
+    let mut writer = journal::Writer::create(Path::new(path), &loaded.scene, start.sums()).expect("it can be written");
+    let mut clock = Clock::new(Default::default());
+    for _ in 0..frames {
+        let tick = clock.advance(Pace::Fixed { dt_seconds: 1.0 / 60.0 });
+        let camera = Camera::at(&loaded.scene.camera, tick.time_seconds);
+        writer.add(&tick, &[], false, &loaded.scene, &camera).expect("it can be written");
+    }
+    writer.finish().expect("it can be written");
+}
+
 #[test]
-fn a_state_knows_when_an_image_changed() {
+fn a_state_and_a_journal_know_when_an_image_changed() {
     let directory = tempfile::tempdir().expect("there is a temporary directory");
-    let [height, imprint, state] = ["height.png", "imprint.png", "state"].map(|name| path_in(&directory, name));
-    let out = directory.path().join("out");
+    let [height, imprint, state, tape] = ["height.png", "imprint.png", "state", "tape"].map(|name| path_in(&directory, name));
+    let [out, replayed] = ["out", "replayed"].map(|name| directory.path().join(name));
     let draw = |path: &str, at: u32| {
         let picture = image::GrayImage::from_fn(24, 16, |x, y| image::Luma([if (x, y) == (at, at) { 200 } else { 90 }]));
         picture.save(path).expect("it can be written");
@@ -107,15 +126,25 @@ fn a_state_knows_when_an_image_changed() {
     draw(&height, 3);
     draw(&imprint, 4);
     capture(&out, &[&run[..], &["--frames", "2", "--save-state", &state]].concat());
+    record(&tape, &scene, 2);
     let resumed = [&run[..], &["--load-state", &state]].concat();
-    capture(&out, &resumed);
-    draw(&height, 4);
-    refused(&resumed, "started from other heights than this run: put the image or the font back");
-    draw(&height, 3);
-    draw(&imprint, 5);
-    refused(&resumed, "had other images to imprint than this run: put those back");
-    draw(&imprint, 4);
-    capture(&out, &resumed);
+    let replay = ["--replay", tape.as_str(), "--size", "32x24", "--frames", "2"];
+    // The journal's frames are the scene's own, to the byte.
+    capture(&replayed, &replay);
+    for frame in ["frame_00000.png", "frame_00001.png"] {
+        let [own, again] = [&out, &replayed].map(|folder| std::fs::read(folder.join(frame)).expect("it was captured"));
+        assert!(own == again, "{frame}");
+    }
+    for run in [&resumed[..], &replay] {
+        capture(&out, run);
+        draw(&height, 4);
+        refused(run, "started from other heights than this run: put the image or the font back");
+        draw(&height, 3);
+        draw(&imprint, 5);
+        refused(run, "had other images to imprint than this run: put those back");
+        draw(&imprint, 4);
+        capture(&out, run);
+    }
 }
 
 #[test]
@@ -133,7 +162,7 @@ fn a_journal_that_is_not_whole_is_refused() {
         (b"", "is no journal"),
         (b"{}\n", "is no journal"),
         (b"{\"rilievo_journal\":99}\n", "is of version 99"),
-        (b"{\"rilievo_journal\":1}\n{\"frames\":0}\n", "cannot be understood, line 1"),
+        (b"{\"rilievo_journal\":2}\n{\"frames\":0}\n", "cannot be understood, line 1"),
     ] {
         std::fs::write(&journal, content).expect("it can be written");
         refused(&["--replay", &journal], says);

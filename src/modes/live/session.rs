@@ -162,7 +162,7 @@ impl Session {
     ///
     /// No file can be made there.
     pub fn record_to(&mut self, path: &Path) -> Result<(), ModeError> {
-        self.journal = Some(journal::Writer::create(path, self.frame.scene(), &self.start.heights)?);
+        self.journal = Some(journal::Writer::create(path, self.frame.scene(), self.start.sums())?);
         Ok(())
     }
 
