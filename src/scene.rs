@@ -25,7 +25,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::surface::{Albedo, Shading, Shadow, Technique};
 
-pub use bodies::{Ball, Mesh};
+pub use bodies::{Ball, Mesh, MeshMaterial};
 pub use gas::{GAS_CELLS_MIN, GAS_VISCOSITY_MAX, Gas, GasBands, GasBorder, GasEmitters};
 pub use layer::{Layer, LayerBlend};
 pub use lights::{Background, DirectionalLight, LIGHTS_MAX};

@@ -125,11 +125,15 @@ fn shell_varyings(number: u32, piece: ShellPiece, position: vec4f) -> ShellVaryi
 fn shell_is_behind(point: vec3f) -> bool {
     let to_point = raster_from_eye(point);
     let to_core = raster_from_eye(view.core_centre);
-    let along = dot(to_core, to_point);
-    let outside = dot(to_core, to_core) - view.core_radius * view.core_radius;
-    let square = dot(to_point, to_point);
-    let pierces = along * along - square * outside;
-    return outside > 0.0 && along > 0.0 && pierces >= 0.0 && along - sqrt(max(pierces, 0.0)) <= square;
+    let radius_squared = view.core_radius * view.core_radius;
+    // The share of the way at which it is nearest to the core's middle, and how far that is. Squares of distances are not subtracted:
+    // from 2,400 radii away 40 pixels of a limb were lost by that.
+    let length_squared = dot(to_point, to_point);
+    let share = dot(to_core, to_point) / length_squared;
+    let miss = to_core - share * to_point;
+    let inside = radius_squared - dot(miss, miss);
+    let enters = share - sqrt(max(inside, 0.0) / length_squared);
+    return dot(to_core, to_core) > radius_squared && share > 0.0 && inside >= 0.0 && enters <= 1.0;
 }
 
 @vertex
@@ -152,7 +156,7 @@ fn shell_vertex(@builtin(vertex_index) index: u32) -> ShellVaryings {
     if volume < 0.0 && corner != 0u {
         corner = 3u - corner;
     }
-    // Half of a planet is: 90 ms of `gas-planet` became 55 on lavapipe.
+    // Half of a planet is: without it `gas-planet` takes 55 ms in place of 90 on lavapipe.
     var is_hidden = view.core_radius > 0.0;
     for (var i = 0u; i < 4u; i++) {
         is_hidden = is_hidden && shell_is_behind(piece.corners[i]);

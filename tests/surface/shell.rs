@@ -7,6 +7,7 @@ use rilievo::mesh::{Mesh, Shape};
 use rilievo::modes::capture::PICTURE_FORMAT;
 use rilievo::reference::shell::{self, Tetrahedron};
 use rilievo::reference::{Addressing, HeightField};
+use rilievo::scene::{self, MeshMaterial, Scene};
 use rilievo::surface::shell::{Core, core, inward, triangles};
 
 use crate::support::fields::Kind;
@@ -125,7 +126,7 @@ fn look(eye: [f64; 3], target: [f64; 3]) -> Eye {
     Eye { camera: Camera::look_at(eye.into(), target.into(), 0.8, 0.01) }
 }
 
-/// Every shape, three fields, from afar and from near the silhouette.
+/// Every shape, two fields, from afar and from near the silhouette.
 #[test]
 fn a_shell_is_hit_where_brute_force_over_its_tetrahedra_hits_it() {
     if gpu().is_none() {
@@ -152,6 +153,32 @@ fn a_shell_is_hit_where_brute_force_over_its_tetrahedra_hits_it() {
     assert!(shown > 50_000);
     assert_eq!(wrong.len(), 0);
     assert!((off as f64) <= SHELL_OFF_SHARE * shown as f64, "{off} of {shown}");
+}
+
+/// A material with a depth of its own, here the scene's, leaves a mesh without a core: nothing else may change. From near the limb,
+/// and through long lenses from where an f32 no longer tells the squares of distances apart.
+#[test]
+fn what_is_behind_the_core_of_a_shell_was_not_to_be_seen() {
+    let Some(gpu) = gpu() else { return };
+    let mesh = Shape::Sphere.mesh([1.0, 1.0]);
+    let field = Kind::Steps.field([128, 128], Addressing::Wrap);
+    let mut scene = scene_of(&field);
+    scene.trace.shell = true;
+    let mut whole = scene.clone();
+    let material = MeshMaterial { depth_metres: Some(scene.plane.depth_metres), ..MeshMaterial::default() };
+    whole.mesh = Some(scene::Mesh { materials: vec![material], ..scene::Mesh::default() });
+    assert!(core(&mesh.vertices, &mesh.indices, scene.plane.depth_metres).radius > 0.0);
+    let far = |metres: f64| {
+        let eye = metres * DVec3::new(0.4, 0.3, 0.866);
+        Eye { camera: Camera::look_at(eye, DVec3::ZERO, 1.1 / metres, 0.01) }
+    };
+    for eye in [look([0.75, 0.12, 0.35], [0.0, -0.05, 0.0]), far(2.0), far(300.0), far(1200.0)] {
+        let of = |scene: &Scene| seen(gpu, scene, &field, Some(mesh.clone()), &eye.camera, SIZE).0;
+        let (with, without) = (of(&scene), of(&whole));
+        let shown = with.iter().filter(|channel| channel.steps >= 0.0).count();
+        let differing = with.iter().zip(&without).filter(|(with, without)| with != without).count();
+        assert!(shown > 8_000 && differing == 0, "{} from {}: {differing} differ", shown, eye.camera.eye());
+    }
 }
 
 /// How far the tetrahedra are from the smooth shell that they stand for: the chord's sagitta, printed by shape and number of
